@@ -1,0 +1,1 @@
+"""The nouns and the reference formulas: numpy only, no files, no drawing."""

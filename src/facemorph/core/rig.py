@@ -1,0 +1,148 @@
+"""`Rig`: a neutral mesh and K named shapes over its vertices, with what is known of the face."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from facemorph.core.arrays import Float32, Int32, UInt8
+from facemorph.core.mesh import Mesh
+from facemorph.core.morph import morphed_positions
+from facemorph.core.normals import vertex_normals
+from facemorph.core.pose import NEUTRAL, Pose
+from facemorph.core.triangles import triangulated
+from facemorph.errors import MeshDataError, UnknownNameError
+
+EXPRESSION = "expression"
+
+
+@dataclass(frozen=True)
+class Shape:
+    """One blendshape: the name it is called by, the words shown for it, and the set it belongs to.
+
+    `set` is "expression" for whole expressions, "facs" for FACS units, "arkit" for ARKit shapes.
+    """
+
+    name: str
+    label: str
+    set: str = EXPRESSION
+
+
+@dataclass(frozen=True)
+class Landmark:
+    """A named vertex; `mpeg4` is its MPEG-4 feature point (as "8.3"), `ibug` its place in the usual 68."""
+
+    name: str
+    vertex: int
+    mpeg4: str | None = None
+    ibug: int | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Regions:
+    """Soft regions of the face: weights (R, V) uint8, at most 255 summed over R; the rest belongs to none."""
+
+    names: tuple[str, ...]
+    weights: UInt8
+
+
+@dataclass(frozen=True)
+class FaceInfo:
+    """What a face folder says of itself. `unit` is a length ("cm", "mm", "m"), or "" where it says none."""
+
+    name: str
+    description: str = ""
+    credit: str = ""
+    licence: str = ""
+    unit: str = ""
+    landmarks: tuple[Landmark, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Rig:
+    """A neutral `Mesh` and K shapes; `deltas` (K, V, 3) float32, in the neutral's unit.
+
+    Raises `MeshDataError` when deltas and neutral do not fit or a name stands twice.
+    """
+
+    neutral: Mesh
+    shapes: tuple[Shape, ...]
+    deltas: Float32
+    info: FaceInfo = field(default_factory=lambda: FaceInfo("face"))
+    regions: Regions | None = None
+
+    def __post_init__(self) -> None:
+        expected = (len(self.shapes), self.neutral.vertex_count, 3)
+        if self.deltas.shape != expected:
+            raise MeshDataError(f"deltas must be {expected}, not {self.deltas.shape}.")
+        seen: set[str] = set()
+        for shape in self.shapes:
+            if shape.name in seen or shape.name == NEUTRAL:
+                raise MeshDataError(f"two shapes are called {shape.name!r}; every shape needs its own name.")
+            seen.add(shape.name)
+
+    @classmethod
+    def from_arrays(cls, neutral: Mesh, shapes: Mapping[str, Float32], info: FaceInfo | None = None) -> Rig:
+        """A rig from the positions (V, 3) of each shape by name."""
+        names = tuple(Shape(name, plain_label(name)) for name in shapes)
+        deltas = np.empty((len(names), neutral.vertex_count, 3), np.float32)
+        for k, (name, positions) in enumerate(shapes.items()):
+            if positions.shape != neutral.positions.shape:
+                raise MeshDataError(
+                    f"shape {name!r} has positions {positions.shape}, the neutral {neutral.positions.shape}."
+                )
+            np.subtract(positions, neutral.positions, out=deltas[k])
+        return cls(neutral, names, deltas, info or FaceInfo("face"))
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The shapes' names in order, (K,)."""
+        return tuple(shape.name for shape in self.shapes)
+
+    @cached_property
+    def triangles(self) -> Int32:
+        """Triangles (T, 3) over the positions, from the neutral's polygons."""
+        return triangulated(self.neutral).vertices
+
+    def shapes_in(self, set_name: str) -> tuple[Shape, ...]:
+        """The shapes of one set, in order."""
+        return tuple(shape for shape in self.shapes if shape.set == set_name)
+
+    def shape(self, name: str) -> Shape:
+        """The shape called `name`. Raises `UnknownNameError`."""
+        for shape in self.shapes:
+            if shape.name == name:
+                return shape
+        raise UnknownNameError("shape", name, (NEUTRAL, *self.names))
+
+    def positions(self, pose: Pose | Mapping[str, float]) -> Float32:
+        """Positions (V, 3) float32 of the face in `pose` (a `Pose`, or shape name -> weight)."""
+        return morphed_positions(self.neutral.positions, self.deltas, as_pose(pose).coefficients(self.names))
+
+    def normals(self, pose: Pose | Mapping[str, float]) -> Float32:
+        """Unit normals (V, 3) of the morphed surface, area-weighted."""
+        return vertex_normals(self.positions(pose), self.triangles)
+
+    def posed(self, pose: Pose | Mapping[str, float]) -> Mesh:
+        """The face in `pose` as a mesh: same order, polygons, groups, uvs, materials."""
+        return self.neutral.with_positions(self.positions(pose))
+
+
+def as_pose(pose: Pose | Mapping[str, float]) -> Pose:
+    """`pose` itself, or the pose that a mapping of shape names to weights stands for."""
+    return pose if isinstance(pose, Pose) else Pose.of(pose)
+
+
+def plain_label(name: str) -> str:
+    """A name as shown to people: `lip_corner` -> `Lip corner`."""
+    words = name.replace("_", " ").strip()
+    return words[:1].upper() + words[1:] if words else name
+
+
+def ordered_names(names: Sequence[str], first: Sequence[str]) -> list[str]:
+    """`names` with those of `first` leading, in its order."""
+    leading = [name for name in first if name in names]
+    return [*leading, *(name for name in names if name not in leading)]

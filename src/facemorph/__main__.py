@@ -1,0 +1,5 @@
+"""`python -m facemorph` is the command line."""
+
+from facemorph.cli import main
+
+raise SystemExit(main())

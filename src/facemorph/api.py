@@ -1,0 +1,144 @@
+"""The library in a handful of functions: load a face, pose it, draw it, write it.
+
+rig = facemorph.load("ada")
+pose = facemorph.Pose.between("neutral", "happy", t=0.6, curve="cosine")
+pixels = facemorph.render(rig, pose, size=(800, 800))
+facemorph.save_picture("happy.png", pixels)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from facemorph.core.arrays import UInt8
+from facemorph.core.camera import Camera
+from facemorph.core.mesh import Labels
+from facemorph.core.picture import Look, checked_size
+from facemorph.core.pose import Pose
+from facemorph.core.progress import Progress, silent
+from facemorph.core.rig import EXPRESSION, Rig, as_pose
+
+if TYPE_CHECKING:
+    from facemorph.gl import Offscreen
+
+AnyPose = Pose | Mapping[str, float]
+
+
+def load(
+    source: str | Path | Sequence[str | Path], *, progress: Progress = silent, cache: bool = True
+) -> Rig:
+    """A face from a built-in's name, a folder, or mesh files of which the first is the neutral.
+
+    Raises `MeshFileError`, `CorrespondenceError`, `FaceFolderError` or `UnknownNameError`.
+    """
+    from facemorph.io import load_rig
+
+    return load_rig(source, progress=progress, cache=cache)
+
+
+def render(
+    rig: Rig,
+    pose: AnyPose | None = None,
+    *,
+    size: tuple[int, int] = (1280, 800),
+    camera: Camera | str = "front",
+    look: Look | None = None,
+) -> UInt8:
+    """A picture of `rig` in `pose` as (H, W, 4) uint8, sRGB, top row first; `size` is (W, H) in pixels.
+
+    `camera` is a `Camera`, a named direction (front, three-quarter, left, right) or "AZIMUTH,ELEVATION".
+    Opens an OpenGL context of its own and closes it; for many pictures keep a `facemorph.Offscreen`.
+    Raises `GraphicsError`, `OptionError`, `PoseError`, `UnknownNameError`.
+    """
+    from facemorph.gl import Offscreen
+
+    checked_size(size)
+    with Offscreen() as screen:
+        return screen.render(rig, as_pose(pose or {}), size=size, camera=camera, look=look or Look())
+
+
+def render_sheet(
+    rig: Rig, *, tile: tuple[int, int] = (320, 320), camera: str = "front", look: Look | None = None
+) -> UInt8:
+    """Neutral and every expression as labelled tiles of (W, H) pixels, (H, W, 4) uint8."""
+    from facemorph.gl import Offscreen, sheet
+
+    checked_size(tile)
+    with Offscreen() as screen:
+        return sheet(screen, rig, tile=tile, camera=camera, look=look or Look())
+
+
+def film_strip(
+    screen: Offscreen, rig: Rig, target: str, *, frames: int = 6, tile: tuple[int, int] = (240, 300)
+) -> UInt8:
+    """Neutral to `target` in equal steps, side by side, (H, frames W, 4) uint8."""
+    steps = np.linspace(0.0, 1.0, frames)
+    poses = [Pose.between("neutral", target, float(t)) for t in steps]
+    return np.concatenate([screen.render(rig, pose, size=tile) for pose in poses], axis=1)
+
+
+def save_picture(path: str | Path, pixels: UInt8) -> Path:
+    """Write pixels (H, W, 4) as a PNG, whole or not at all. Raises `OutputError`."""
+    from facemorph.io import write_png
+
+    write_png(Path(path), pixels)
+    return Path(path)
+
+
+def export(rig: Rig, pose: AnyPose, path: str | Path) -> Path:
+    """Write the posed face as an OBJ: same order, polygons, groups, uvs; normals of the morphed surface."""
+    from facemorph.io import write_obj
+
+    pose = as_pose(pose)
+    write_obj(Path(path), rig.posed(pose), normals=rig.normals(pose))
+    return Path(path)
+
+
+def save_expressions(rig: Rig, folder: str | Path, *, size: tuple[int, int] = (800, 800)) -> list[Path]:
+    """A picture of neutral and of each expression, and a film strip to the first one; returns their paths."""
+    from facemorph.gl import Offscreen
+
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    names = [shape.name for shape in rig.shapes_in(EXPRESSION)]
+    paths: list[Path] = []
+    with Offscreen() as screen:
+        for name in ["neutral", *names]:
+            pixels = screen.render(rig, Pose.between("neutral", name, 1.0), size=size)
+            paths.append(save_picture(folder / f"{name}.png", pixels))
+        if names:
+            strip = film_strip(screen, rig, names[0])
+            paths.append(save_picture(folder / f"neutral-to-{names[0]}.png", strip))
+    return paths
+
+
+def facts(rig: Rig) -> dict[str, object]:
+    """What `facemorph info` tells: counts, parts, shapes and size, ready for JSON."""
+    mesh = rig.neutral
+    low, high = mesh.bounds.astype(float)
+    return {
+        "name": rig.info.name,
+        "vertices": mesh.vertex_count,
+        "polygons": mesh.polygon_count,
+        "triangles": len(rig.triangles),
+        "uvs": len(mesh.uvs),
+        "groups": _names(mesh.groups),
+        "objects": _names(mesh.objects),
+        "materials": _names(mesh.materials_used),
+        "shapes": list(rig.names),
+        "diagonal": mesh.diagonal,
+        "size": [round(float(side), 6) for side in high - low],
+        "unit": rig.info.unit,
+        "landmarks": len(rig.info.landmarks),
+        "regions": list(rig.regions.names) if rig.regions else [],
+        "credit": rig.info.credit,
+        "licence": rig.info.licence,
+    }
+
+
+def _names(labels: Labels | None) -> list[str]:
+    return list(labels.names) if labels else []

@@ -1,0 +1,172 @@
+"""The verbs, their options, and the words that `--help` shows for them."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from facemorph import __version__
+from facemorph.cli import verbs
+from facemorph.core.camera import DIRECTIONS
+from facemorph.core.morph import CURVES
+from facemorph.core.picture import SHADINGS
+from facemorph.errors import OptionError
+
+FACE_HELP = "a built-in face (ada), a folder, or mesh files of which the first is the neutral"
+VERBS = ("view", "faces", "info", "check", "render", "export", "doctor")
+
+
+class Parser(argparse.ArgumentParser):
+    """An argument parser whose complaints are one line, like every other error here."""
+
+    def error(self, message: str) -> NoReturn:
+        """Raise `OptionError` in place of printing the usage and leaving."""
+        raise OptionError(f"{message} (`{self.prog} --help` lists what there is).")
+
+
+def parsed(arguments: Sequence[str]) -> argparse.Namespace:
+    """The options, with `verb` the function to call. Without a verb, the window opens."""
+    general = {"-h", "--help", "--version"}
+    if not arguments or arguments[0] not in {*VERBS, *general}:
+        arguments = ["view", *arguments]
+    return _parser().parse_args(arguments)
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        prog="facemorph",
+        description="View, morph and export 3D facial expressions. Without a verb, opens the window.",
+    )
+    parser.add_argument("--version", action="version", version=f"facemorph {__version__}")
+    adders = parser.add_subparsers(metavar="VERB", required=True, parser_class=Parser)
+    _view(adders.add_parser("view", help="open the window"))
+    _faces(adders.add_parser("faces", help="list the built-in faces, a line each"))
+    _info(adders.add_parser("info", help="say what a face or a mesh file holds"))
+    _check(adders.add_parser("check", help="check a whole set of shapes"))
+    _render(adders.add_parser("render", help="draw a picture without a window"))
+    _export(adders.add_parser("export", help="write a morphed face as a mesh"))
+    _doctor(adders.add_parser("doctor", help="say what works on this machine and what is missing"))
+    return parser
+
+
+def _verb(parser: Parser, function: Callable[[argparse.Namespace], int], description: str) -> None:
+    parser.set_defaults(verb=function)
+    parser.description = description
+
+
+def _view(parser: Parser) -> None:
+    _verb(parser, verbs.view, "Open the window on a face (ada, where none is named).")
+    parser.add_argument("face", nargs="*", metavar="FACE", help=FACE_HELP)
+    _set_option(parser)
+    parser.add_argument(
+        "--without-display",
+        metavar="FOLDER",
+        type=Path,
+        help="where there is no display, write pictures of the expressions into FOLDER instead",
+    )
+
+
+def _faces(parser: Parser) -> None:
+    _verb(parser, verbs.faces, "List the built-in faces: name, who it is, shapes, licence.")
+
+
+def _info(parser: Parser) -> None:
+    _verb(parser, verbs.info, "Say what a face or a mesh file holds: counts, parts, shapes, size.")
+    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    _json_option(parser)
+
+
+def _check(parser: Parser) -> None:
+    _verb(
+        parser,
+        verbs.check,
+        "Check a folder of shapes: do they correspond, and are they sound? Status 1 where they are not.",
+    )
+    parser.add_argument("folder", metavar="FOLDER", type=Path)
+    parser.add_argument(
+        "--repair",
+        metavar="OUT",
+        type=Path,
+        help="write copies of shapes whose vertices stand in another order, put right, into the folder OUT",
+    )
+    _json_option(parser)
+
+
+def _render(parser: Parser) -> None:
+    _verb(parser, verbs.render, "Draw a face in a pose, or a sheet of all its expressions, as a PNG.")
+    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    _pose_options(parser)
+    parser.add_argument(
+        "--sheet", action="store_true", help="every expression, labelled; --size is one tile's"
+    )
+    parser.add_argument(
+        "--camera",
+        default="front",
+        metavar="VIEW",
+        help=f"{', '.join(DIRECTIONS)}, or AZIMUTH,ELEVATION in degrees (default: front)",
+    )
+    parser.add_argument(
+        "--size", metavar="WxH", help="in pixels (default: 1280x800; a sheet's tile: 320x320)"
+    )
+    parser.add_argument(
+        "--shading", default="skin", metavar="NAME", help=f"{', '.join(SHADINGS)} (default: skin)"
+    )
+    parser.add_argument("--background", metavar="COLOUR", help="RRGGBB in hexadecimal, or transparent")
+    _output_option(parser, "PNG")
+
+
+def _export(parser: Parser) -> None:
+    _verb(
+        parser,
+        verbs.export,
+        "Write a face in a pose as an OBJ: order, polygons, groups, uvs as they were; normals of the new surface.",
+    )
+    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    _pose_options(parser)
+    _output_option(parser, "OBJ")
+
+
+def _doctor(parser: Parser) -> None:
+    _verb(
+        parser,
+        verbs.doctor,
+        "Say what works on this machine and what is missing. Status 1 if it cannot draw.",
+    )
+    _json_option(parser)
+
+
+def _pose_options(parser: Parser) -> None:
+    parser.add_argument(
+        "--from", dest="source", default="neutral", metavar="A", help="expression to start from"
+    )
+    parser.add_argument("--to", dest="target", metavar="B", help="expression to go to")
+    parser.add_argument(
+        "--t", type=str, metavar="T", help="how far from A to B, 0 to 1 (default: 1 with --to, else 0)"
+    )
+    parser.add_argument(
+        "--curve", default="linear", metavar="NAME", help=f"{' or '.join(CURVES)} (default: linear)"
+    )
+    _set_option(parser)
+
+
+def _set_option(parser: Parser) -> None:
+    parser.add_argument(
+        "--set",
+        dest="weights",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="add a shape with a weight, as jawOpen=0.5; may be given several times; below 0 and above 1 too",
+    )
+
+
+def _json_option(parser: Parser) -> None:
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+
+
+def _output_option(parser: Parser, kind: str) -> None:
+    parser.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE", help=f"the {kind} to write"
+    )

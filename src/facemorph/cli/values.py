@@ -1,0 +1,80 @@
+"""Words from the command line into poses, sizes and looks."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from facemorph.core.morph import checked_curve
+from facemorph.core.picture import Look, checked_shading
+from facemorph.core.pose import NEUTRAL, Pose, state_of
+from facemorph.core.rig import Rig
+from facemorph.errors import OptionError, PoseError, UnknownNameError
+
+
+def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
+    """The pose of --from, --to, --t, --curve and --set; raises `UnknownNameError`, `PoseError`, `OptionError`."""
+    for name in (options.source, options.target or NEUTRAL):
+        if name != NEUTRAL:
+            rig.shape(name)
+    t = number(options.t, "--t") if options.t is not None else float(options.target is not None)
+    curve = checked_curve(options.curve)
+    weights = weights_from(options.weights, rig)
+    return Pose(state_of(options.source), state_of(options.target or NEUTRAL), t, curve, weights)
+
+
+def weights_from(words: Sequence[str], rig: Rig) -> dict[str, float]:
+    """Weights from NAME=VALUE words; a name given twice counts with its last value."""
+    weights: dict[str, float] = {}
+    for word in words:
+        name, equals, value = word.rpartition("=")
+        if not equals or not name:
+            raise OptionError(f"--set takes NAME=VALUE, as {example_name(rig)}=0.5; not {word!r}.")
+        if name == NEUTRAL:
+            raise UnknownNameError("shape", name, rig.names)
+        weights[rig.shape(name).name] = number(value, f"--set {name}")
+    return weights
+
+
+def example_name(rig: Rig) -> str:
+    """A shape's name to show in an error."""
+    return rig.names[0] if rig.names else "smile"
+
+
+def number(text: str, option: str) -> float:
+    """A finite number. Raises `PoseError` naming the option."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise PoseError(f"{option} takes a number, not {text!r}.")
+    return value
+
+
+def look_from(options: argparse.Namespace) -> Look:
+    """The look of --shading and --background."""
+    shading = checked_shading(options.shading)
+    if options.background is None:
+        return Look(shading=shading)
+    return Look(shading=shading, background=background_colour(options.background))
+
+
+def background_colour(text: str) -> tuple[float, float, float, float]:
+    """sRGB and alpha, 0..1, of "transparent" or RRGGBB. Raises `OptionError`."""
+    if text == "transparent":
+        return (0.0, 0.0, 0.0, 0.0)
+    if not re.fullmatch(r"#?[0-9a-fA-F]{6}", text):
+        raise OptionError(f"a background is RRGGBB in hexadecimal, as 808080, or transparent; not {text!r}.")
+    red, green, blue = bytes.fromhex(text.lstrip("#"))
+    return (red / 255.0, green / 255.0, blue / 255.0, 1.0)
+
+
+def checked_suffix(path: Path, suffix: str) -> Path:
+    """`path` if its name ends in `suffix`. Raises `OptionError` before any work is done."""
+    if path.suffix.lower() != suffix:
+        raise OptionError(f"the output must end in {suffix}; {path.name!r} does not.")
+    return path

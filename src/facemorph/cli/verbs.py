@@ -1,0 +1,126 @@
+"""What each verb does: read, call the library once, print."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+from facemorph.errors import DisplayError
+
+DEFAULT_FACE = "ada"
+
+
+def view(options: argparse.Namespace) -> int:
+    """Open the window; where there is no display, write pictures if a folder for them is named."""
+    from facemorph.ui import run
+
+    try:
+        return run(options.face or DEFAULT_FACE, options.weights)
+    except DisplayError as error:
+        if options.without_display is None:
+            raise
+        return _pictures_instead(str(error), options)
+
+
+def _pictures_instead(why: str, options: argparse.Namespace) -> int:
+    from facemorph import api
+
+    print(f"{why} Drawing pictures into {options.without_display}/ instead.", file=sys.stderr)
+    for path in api.save_expressions(api.load(options.face or DEFAULT_FACE), options.without_display):
+        print(path)
+    return 0
+
+
+def faces(options: argparse.Namespace) -> int:
+    """A line for each built-in face, its name first."""
+    from facemorph.io import read_face_info
+    from facemorph.resources import builtin_faces
+
+    for name, folder in builtin_faces().items():
+        info = read_face_info(folder)
+        print(f"{name:<6}{info.name}: {info.description} ({info.licence})")
+    return 0
+
+
+def info(options: argparse.Namespace) -> int:
+    """Counts, parts and shapes of a face or a single mesh file."""
+    from facemorph import api
+
+    facts = api.facts(api.load(options.face))
+    if options.json:
+        print(json.dumps(facts, ensure_ascii=False, indent=2))
+        return 0
+    for key, value in facts.items():
+        print(f"{key.replace('_', ' '):<12}{_in_words(value)}")
+    return 0
+
+
+def _in_words(value: object) -> str:
+    if isinstance(value, list):
+        return f"{len(value)}: {', '.join(str(item) for item in value)}" if value else "none"
+    if isinstance(value, int):
+        return f"{value:,}"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def check(options: argparse.Namespace) -> int:
+    """Whether a folder's shapes correspond and are sound; 1 where they are not."""
+    from facemorph.io import check_folder, repair_folder
+
+    report = check_folder(options.folder)
+    if options.json:
+        print(json.dumps(report.as_dict(), ensure_ascii=False, indent=2))
+    else:
+        print("\n".join(report.lines()))
+    if options.repair is not None:
+        for path in repair_folder(options.folder, options.repair):
+            print(f"wrote {path}", file=sys.stderr)
+    return 0 if report.ok else 1
+
+
+def render(options: argparse.Namespace) -> int:
+    """Draw a picture or a sheet and write it."""
+    from facemorph import api
+    from facemorph.cli.values import checked_suffix, look_from, pose_from
+    from facemorph.core.camera import direction_angles
+    from facemorph.core.picture import picture_size
+
+    output = checked_suffix(options.output, ".png")
+    look = look_from(options)
+    direction_angles(options.camera)
+    size = picture_size(options.size) if options.size else None
+    rig = api.load(options.face)
+    if options.sheet:
+        pixels = api.render_sheet(rig, tile=size or (320, 320), camera=options.camera, look=look)
+    else:
+        pose = pose_from(options, rig)
+        pixels = api.render(rig, pose, size=size or (1280, 800), camera=options.camera, look=look)
+    api.save_picture(output, pixels)
+    return _wrote(output)
+
+
+def export(options: argparse.Namespace) -> int:
+    """Write the posed face as an OBJ."""
+    from facemorph import api
+    from facemorph.cli.values import checked_suffix, pose_from
+
+    output = checked_suffix(options.output, ".obj")
+    rig = api.load(options.face)
+    api.export(rig, pose_from(options, rig), output)
+    return _wrote(output)
+
+
+def _wrote(path: Path) -> int:
+    print(path)
+    return 0
+
+
+def doctor(options: argparse.Namespace) -> int:
+    """What works on this machine; 1 where nothing can draw."""
+    from facemorph.cli.doctor import examination
+
+    report = examination()
+    print(json.dumps(report.as_dict(), indent=2) if options.json else "\n".join(report.lines()))
+    return 0 if report.can_draw else 1

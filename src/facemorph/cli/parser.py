@@ -121,7 +121,7 @@ def _export(parser: Parser) -> None:
     _verb(
         parser,
         verbs.export,
-        "Write a face in a pose as an OBJ: order, polygons, groups, uvs as they were; normals of the new surface.",
+        "Write a face in a pose as an OBJ: order, polygons, groups, uvs kept; normals of the new surface.",
     )
     parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
     _pose_options(parser)

@@ -16,7 +16,7 @@ from facemorph.errors import OptionError, PoseError, UnknownNameError
 
 
 def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
-    """The pose of --from, --to, --t, --curve and --set; raises `UnknownNameError`, `PoseError`, `OptionError`."""
+    """The pose of --from, --to, --t, --curve and --set. Names and numbers are checked."""
     for name in (options.source, options.target or NEUTRAL):
         if name != NEUTRAL:
             rig.shape(name)

@@ -1,0 +1,151 @@
+"""Choose which faces of the skin keep their subdivision, and stitch them to the coarse rest.
+
+Every vertex of the result is a vertex of the fine mesh, so whatever moves the fine mesh moves this one.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .cage import BUST, MOUTH
+from .finemesh import FineMesh
+
+
+@dataclass(frozen=True)
+class AdaptiveMesh:
+    """pick, pick_uv: which fine vertices and uvs are kept; triangles, uv_triangles: (t, 3) into them."""
+
+    pick: np.ndarray
+    pick_uv: np.ndarray
+    triangles: np.ndarray
+    uv_triangles: np.ndarray
+
+
+def bulge(fine: FineMesh, points: np.ndarray) -> np.ndarray:
+    """How far (m,) each coarse quad's subdivided surface leaves the flat quad, for fine points (n, 3)."""
+    corners = points[fine.coarse]
+    middles = 0.5 * (corners + np.roll(corners, -1, 1))
+    edges = np.linalg.norm(points[fine.smooth.edge_of] - middles, axis=-1).max(1)
+    centre = np.linalg.norm(points[fine.smooth.face_of] - corners.mean(1), axis=-1)
+    return np.maximum(edges, centre)
+
+
+def _gaussian(points, centre, radii) -> np.ndarray:
+    """1 at the centre, falling off; left and right alike."""
+    mirrored = points * [1, 1, 1]
+    mirrored[:, 0] = np.abs(mirrored[:, 0])
+    return np.exp(-(((mirrored - centre) / radii) ** 2).sum(1))
+
+
+def attention(fine: FineMesh, points: np.ndarray) -> np.ndarray:
+    """How much (m,) the eye cares about each coarse face of the base head, in decimetres."""
+    centre = points[fine.coarse].mean(1)
+    weight = (0.6 + 6.0 * _gaussian(centre, (0.10, 6.62, 1.55), (0.30, 0.20, 0.30))
+              + 6.0 * _gaussian(centre, (0.31, 7.29, 1.35), (0.24, 0.13, 0.25))
+              + 2.5 * _gaussian(centre, (0.08, 6.92, 1.55), (0.16, 0.16, 0.25))
+              + 1.5 * _gaussian(centre, (0.30, 7.47, 1.40), (0.35, 0.12, 0.30)))
+    weight[centre[:, 2] < 0.3] *= 0.5
+    weight[fine.coarse_island == BUST] *= 0.35
+    weight[fine.coarse_island == MOUTH] *= 0.25
+    weight[fine.coarse_island > BUST] *= 0.5
+    return weight
+
+
+def rank_faces(fine: FineMesh, shapes: list[np.ndarray], base_points: np.ndarray) -> np.ndarray:
+    """Score (m,) of each coarse face: its worst bulge over the base head's shapes, times attention."""
+    worst = np.zeros(len(fine.coarse))
+    for shape in shapes:
+        worst = np.maximum(worst, bulge(fine, fine.operator @ shape))
+    return worst * attention(fine, fine.operator @ base_points)
+
+
+def choose_faces(fine: FineMesh, score: np.ndarray, budget: int) -> np.ndarray:
+    """The most deserving faces (m,) bool whose mesh has at most `budget` vertices."""
+    order = np.argsort(-score, kind="stable")
+    low, high = 0, len(order)
+    while low < high:
+        middle = (low + high + 1) // 2
+        if _vertex_count(fine, _with_first(order, middle)) <= budget:
+            low = middle
+        else:
+            high = middle - 1
+    return _with_first(order, low)
+
+
+def _with_first(order: np.ndarray, count: int) -> np.ndarray:
+    chosen = np.zeros(len(order), bool)
+    chosen[order[:count]] = True
+    return chosen
+
+
+def _vertex_count(fine: FineMesh, chosen: np.ndarray) -> int:
+    chosen, split = _close(fine, chosen)
+    corners = len(np.unique(fine.coarse))
+    return corners + len(np.unique(fine.smooth.edge_of[split])) + int((chosen | _bent(split)).sum())
+
+
+def _close(fine: FineMesh, chosen: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Split edges (m, 4) around the chosen faces; a face with three or more split edges is chosen too."""
+    chosen = chosen.copy()
+    edge_of = fine.smooth.edge_of
+    while True:
+        is_split = np.zeros(fine.smooth.operator.shape[0], bool)
+        is_split[edge_of[chosen]] = True
+        split = is_split[edge_of]
+        grown = chosen | (split.sum(1) >= 3)
+        if (grown == chosen).all():
+            return chosen, split
+        chosen = grown
+
+
+def _bent(split: np.ndarray) -> np.ndarray:
+    """Faces split on exactly two neighbouring sides: they need their middle vertex."""
+    return (split.sum(1) == 2) & (split & np.roll(split, -1, 1)).any(1)
+
+
+def _patches(corner, edge, middle, split, chosen) -> list[list[int]]:
+    """The polygons of one coarse face; its sides are split where a neighbour is finer."""
+    count = int(split.sum())
+    if chosen:
+        return [[corner[i], edge[i], middle, edge[i - 1]] for i in range(4)]
+    if count == 0:
+        return [corner]
+    if count == 2 and not (split & np.roll(split, -1)).any():
+        i = 0 if split[0] else 1
+        a, b, c, d = (corner[(i + k) % 4] for k in range(4))
+        return [[a, edge[i], edge[i + 2], d], [edge[i], b, c, edge[i + 2]]]
+    if count == 2:
+        i = next(k for k in range(4) if split[k] and split[(k + 1) % 4])
+        j = (i + 1) % 4
+        a, b, c, d = (corner[(i + k) % 4] for k in range(4))
+        return [[edge[i], b, edge[j], middle], [a, edge[i], middle, d], [d, middle, edge[j], c]]
+    i = int(np.flatnonzero(split)[0])
+    a, b, c, d = (corner[(i + k) % 4] for k in range(4))
+    return [[edge[i], b, c, d], [edge[i], d, a]]
+
+
+def _polygons(coarse, refinement, split, chosen) -> list[list[int]]:
+    result = []
+    for k in range(len(coarse)):
+        result += _patches(coarse[k].tolist(), refinement.edge_of[k].tolist(), int(refinement.face_of[k]),
+                           split[k], bool(chosen[k]))
+    return result
+
+
+def _fan(polygons: list[list[int]]) -> np.ndarray:
+    """Consecutive triangles of each polygon, (t, 3)."""
+    return np.array([[p[0], p[i], p[i + 1]] for p in polygons for i in range(1, len(p) - 1)])
+
+
+def build_adaptive_mesh(fine: FineMesh, chosen: np.ndarray) -> AdaptiveMesh:
+    chosen, split = _close(fine, chosen)
+    triangles = _fan(_polygons(fine.coarse, fine.smooth, split, chosen))
+    uv_triangles = _fan(_polygons(fine.coarse_uv, fine.flat, split, chosen))
+    pick, triangles = _renumber(triangles)
+    pick_uv, uv_triangles = _renumber(uv_triangles)
+    return AdaptiveMesh(pick, pick_uv, triangles, uv_triangles)
+
+
+def _renumber(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    used, inverse = np.unique(triangles, return_inverse=True)
+    return used, inverse.reshape(triangles.shape)

@@ -1,0 +1,47 @@
+"""Bake whole people into an assets folder."""
+
+from pathlib import Path
+
+from .head import Body, Head
+from .landmarks import find_landmarks
+from .pack import write_shapes
+from .people import PEOPLE, Person
+from .recipes import EXPRESSIONS
+from .regions import build_regions
+from .small_textures import eye_picture, teeth_picture
+from .source import Source
+from .textures import Painter
+from .write import layout_text, write_mtl, write_obj, write_toml
+
+SKIN_SIZE = 2048
+JPEG_QUALITY = 90
+
+
+class Bakery:
+    """Prepares what all people share, then bakes them one by one."""
+
+    def __init__(self, wheel: Path):
+        self._source = Source(wheel)
+        self._head = Head(self._source)
+        self._painter = Painter(self._head, SKIN_SIZE)
+        self._layout = layout_text(self._head)
+        self._landmarks = find_landmarks(self._head)
+        self._regions = build_regions(self._head)
+
+    def bake(self, name: str, out: Path):
+        person = PEOPLE[name]
+        folder = out / name
+        folder.mkdir(parents=True, exist_ok=True)
+        body = Body(self._head, person)
+        for expression, recipe in EXPRESSIONS.items():
+            points = body.positions(body.shaper.shape(recipe))
+            write_obj(folder / f"{expression}.obj", f"{person.name}, {expression}", points, self._layout)
+        write_shapes(folder / "shapes.npz", body, self._source.arkit_names(), self._regions)
+        write_mtl(folder / "face.mtl")
+        write_toml(folder / "face.toml", person, [e for e in EXPRESSIONS if e != "neutral"], self._landmarks)
+        self._pictures(person, body, folder)
+
+    def _pictures(self, person: Person, body: Body, folder: Path):
+        self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
+        eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
+        teeth_picture().save(folder / "teeth.png", optimize=True)

@@ -1,0 +1,50 @@
+"""Turn a person and a recipe into positions of the base mesh's vertices."""
+
+import numpy as np
+
+from .people import Person
+from .phenotype import body_offsets
+from .seal import LipSeal
+from .source import Source
+
+
+class Shaper:
+    """Shapes of one person in base-mesh space (19158, 3), in decimetres."""
+
+    def __init__(self, source: Source, person: Person, seal: LipSeal):
+        self._source = source
+        self._descent = person.body.descent_weights()
+        offsets = body_offsets(source, person.body)
+        for name, weight in person.details.items():
+            offsets = offsets + weight * self._detail(name)
+        offsets = offsets + self.offsets(person.rest)
+        self.neutral = seal.close(source.base.points + offsets)
+
+    def offsets(self, recipe: dict) -> np.ndarray:
+        """Sum of a recipe's units, see recipes.py."""
+        total = np.zeros_like(self._source.base.points)
+        for term, weight in recipe.items():
+            kind, name = term.split(":", 1)
+            total += weight * (self._source.arkit(name) if kind == "arkit" else self._unit(name))
+        return total
+
+    def shape(self, recipe: dict) -> np.ndarray:
+        return self.neutral + self.offsets(recipe)
+
+    def _detail(self, name: str) -> np.ndarray:
+        if self._source.has_target(name):
+            return self._source.target(name)
+        folder, leaf = name.split("/")
+        return self._source.target(f"{folder}/l-{leaf}") + self._source.target(f"{folder}/r-{leaf}")
+
+    def _unit(self, name: str) -> np.ndarray:
+        """A MakeHuman expression unit, blended over the person's descent."""
+        total = np.zeros_like(self._source.base.points)
+        for people, weight in self._descent.items():
+            folder = f"expression/units/{people}/"
+            if self._source.has_target(folder + name):
+                total += weight * self._source.target(folder + name)
+            else:
+                for side in ("-left-", "-right-"):
+                    total += weight * self._source.target(folder + name.replace("-", side, 1))
+        return total

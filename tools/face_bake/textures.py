@@ -1,0 +1,53 @@
+"""Paint all pictures of a person; what does not depend on the person is prepared once."""
+
+import numpy as np
+from PIL import Image
+from scipy.spatial import cKDTree
+
+from .cage import HEAD, MOUTH
+from .head import Body, Head
+from .occlusion import visible_sky
+from .raster import Raster
+from .skin import Canvas, paint_skin
+from .source import mask_at
+from .strips import catmull_rom
+
+FAR = 9.0
+
+
+class Painter:
+    """Paints skins of one size."""
+
+    def __init__(self, head: Head, size: int):
+        self._head, fine = head, head.fine
+        self._triangles, uv_triangles = fine.triangles, fine.uv_triangles
+        self._raster = Raster(fine.uv, uv_triangles, size)
+        points = self._raster.sample(fine.operator @ head.source.base.points, self._triangles)
+        source_uv = self._raster.sample(fine.source_uv, uv_triangles)
+        island = np.repeat(fine.island, 2)[self._raster.owner]
+        upper, lower = (self._lid_distance(points, upper) for upper in (True, False))
+        lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 1.3, source_uv) * 1.25 - 0.12, 0, 1)
+        ears = mask_at(head.source.mask("mpfb_ears.jpg"), 3, source_uv)
+        outside = island == HEAD
+        self._canvas = Canvas(points, lips * outside, ears * outside, (island == MOUTH).astype(np.float32),
+                              upper, lower)
+
+    def _lid_distance(self, points: np.ndarray, upper: bool) -> np.ndarray:
+        """Distance (p,) to the edge of the upper or lower lids; only measured near the eyes."""
+        base = self._head.source.base.points
+        edge = [catmull_rom(len(lashes.lid), np.linspace(0, len(lashes.lid) - 1, 160)) @ base[lashes.lid]
+                for lashes in self._head.lashes if lashes.upper == upper]
+        distance = np.full(len(points), FAR, np.float32)
+        near = (np.abs(points[:, 1] - 7.3) < 0.25) & (points[:, 2] > 1.1)
+        distance[near] = cKDTree(np.concatenate(edge)).query(points[near])[0]
+        return distance
+
+    def skin(self, body: Body) -> Image.Image:
+        """The skin of a person with the occlusion of the neutral face baked in."""
+        neutral = body.shaper.neutral
+        groups = self._head.groups[1:5]
+        blockers = [(points, group.triangles - group.first)
+                    for points, group in zip(body.solids(neutral), groups, strict=True)]
+        light = visible_sky(body.fine_skin(neutral), self._triangles, blockers, self._head.fine.averaging())
+        colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
+        return Image.fromarray(self._raster.picture(colours))

@@ -1,0 +1,58 @@
+"""Write the text files of a person: OBJ shapes, materials and the description."""
+
+from pathlib import Path
+
+import numpy as np
+
+from .head import Head
+from .people import Person
+
+CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
+LICENCE = "CC0-1.0"
+MATERIALS = {
+    "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"), "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
+    "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"), "tongue": ((0.60, 0.27, 0.26), 0.3, 30, None),
+    "lash": ((0.06, 0.045, 0.04), 0.0, 10, None),
+}
+
+
+def layout_text(head: Head) -> str:
+    """Texture coordinates and faces: the same text at the end of every OBJ of every person."""
+    lines = [f"vt {u:.4f} {v:.4f}" for u, v in head.uv.tolist()]
+    for group in head.groups:
+        lines += [f"g {group.name}", f"usemtl {group.material}"]
+        corners = np.stack([group.triangles, group.uv_triangles], -1).reshape(-1, 6) + 1
+        lines += ["f {}/{} {}/{} {}/{}".format(*corner) for corner in corners.tolist()]
+    return "\n".join(lines) + "\n"
+
+
+def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
+    """Points (V, 3) in centimetres."""
+    head = [f"# {title}, facemorph bundled face; centimetres, Y up, looking along +Z",
+            f"# {LICENCE}; from {CREDIT}", "mtllib face.mtl"]
+    # Adding zero turns -0.0 into 0.0, so that rounding never writes "-0.0000".
+    rounded = np.round(points, 4) + 0.0
+    vertices = [f"v {x:.4f} {y:.4f} {z:.4f}" for x, y, z in rounded.tolist()]
+    path.write_text("\n".join(head + vertices) + "\n" + layout, encoding="ascii", newline="\n")
+
+
+def write_mtl(path: Path):
+    lines = [f"# {LICENCE}"]
+    for name, (colour, shine, exponent, picture) in MATERIALS.items():
+        diffuse, specular = (" ".join(f"{part:g}" for part in value) for value in (colour, (shine,) * 3))
+        lines += [f"newmtl {name}", f"Kd {diffuse}", f"Ks {specular}", f"Ns {exponent}", "illum 2"]
+        lines += [f"map_Kd {picture}"] if picture else []
+    path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
+
+
+def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list):
+    lines = [f'name = "{person.name}"', f'description = "{person.description}"', f'credit = "{CREDIT}"',
+             f'licence = "{LICENCE}"', 'unit = "cm"', 'neutral = "neutral.obj"', 'shapes = "shapes.npz"']
+    for name in expressions:
+        lines += ["", "[[expressions]]", f'name = "{name}"', f'label = "{name.capitalize()}"',
+                  f'file = "{name}.obj"']
+    for landmark in landmarks:
+        lines += ["", "[[landmarks]]", f'name = "{landmark.name}"', f"vertex = {landmark.vertex}"]
+        lines += [f'mpeg4 = "{landmark.mpeg4}"'] if landmark.mpeg4 else []
+        lines += [f"ibug = {landmark.ibug}"] if landmark.ibug is not None else []
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")

@@ -1,0 +1,30 @@
+// A portrait's light: a soft key, a fill, a rim from behind, and the sky above and the floor below.
+// All directions are unit vectors in the model's space, towards the light.
+
+uniform vec3 key_direction;
+uniform vec3 key_light;
+uniform vec3 fill_direction;
+uniform vec3 fill_light;
+uniform vec3 rim_direction;
+uniform vec3 rim_light;
+uniform vec3 sky_light;
+uniform vec3 floor_light;
+
+// How the material answers.
+uniform vec3 wrap;                     // how far the key reaches past the terminator; red most on skin
+uniform float gloss;                   // strength of the highlight
+uniform float sharpness;               // its exponent
+uniform float sheen;                   // light at grazing angles, from the rim
+
+vec3 lit(vec3 albedo, vec3 n, vec3 v) {
+    vec3 light = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
+    light += key_light * max((dot(n, key_direction) + wrap) / (1.0 + wrap), 0.0);
+    float fill = 0.5 + 0.5 * dot(n, fill_direction);
+    light += fill_light * (fill * fill);
+
+    float edge = 1.0 - max(dot(n, v), 0.0);
+    edge *= edge;
+    float rim = max(dot(n, rim_direction) * 0.7 + 0.3, 0.0) * edge * edge;
+    float shine = pow(max(dot(n, normalize(key_direction + v)), 0.0), sharpness);
+    return albedo * light + key_light * (gloss * shine) + rim_light * (sheen * rim);
+}

@@ -1,0 +1,66 @@
+"""How the parts of a face answer light: recipes by the material's name, the file's own numbers otherwise."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from facemorph.core.mesh import Material
+
+Colour = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Finish:
+    """What `shaders/lib/light.glsl` asks of a material; colours and strengths are linear.
+
+    wrap       how far the key light reaches past the terminator, for red, green and blue
+    gloss      strength of the highlight, `sharpness` its exponent
+    sheen      how strongly the rim light shows at grazing angles
+    """
+
+    wrap: Colour
+    gloss: float
+    sharpness: float
+    sheen: float
+
+
+SKIN = Finish(wrap=(0.42, 0.24, 0.18), gloss=0.05, sharpness=14.0, sheen=1.0)
+EYE = Finish(wrap=(0.30, 0.28, 0.28), gloss=1.6, sharpness=420.0, sheen=0.15)
+TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.22, sharpness=60.0, sheen=0.2)
+TONGUE = Finish(wrap=(0.45, 0.25, 0.22), gloss=0.14, sharpness=36.0, sheen=0.3)
+LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
+CLAY = Finish(wrap=(0.26, 0.24, 0.22), gloss=0.05, sharpness=18.0, sheen=0.8)
+
+# A name contains the word; the first that fits is taken, so "eyelash" is a lash and no eye.
+_BY_WORD: tuple[tuple[str, Finish], ...] = (
+    ("lash", LASH),
+    ("brow", LASH),
+    ("teeth", TEETH),
+    ("tooth", TEETH),
+    ("tongue", TONGUE),
+    ("gum", TONGUE),
+    ("eye", EYE),
+    ("cornea", EYE),
+    ("sclera", EYE),
+    ("iris", EYE),
+    ("skin", SKIN),
+    ("face", SKIN),
+    ("head", SKIN),
+)
+
+CLAY_COLOUR: Colour = (0.46, 0.435, 0.41)
+# A mesh without any material: unpainted, but warm.
+PLAIN = Material("", diffuse=(0.56, 0.44, 0.37))
+
+
+def finish_of(material: Material) -> Finish:
+    """The recipe for a material's name, or one from its specular colour and exponent."""
+    name = material.name.casefold()
+    for word, finish in _BY_WORD:
+        if word in name:
+            return finish
+    if material.name == "":
+        return SKIN
+    strength = sum(material.specular) / 3.0
+    sharpness = min(max(material.shininess, 4.0), 400.0)
+    return Finish(CLAY.wrap, min(max(strength, 0.0), 1.0) * 0.5, sharpness, CLAY.sheen)

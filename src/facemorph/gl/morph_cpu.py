@@ -1,0 +1,40 @@
+"""The CPU path: one blend in numpy, exact normals, one upload. Chosen where OpenGL itself runs on the CPU."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from facemorph.core.blend import Blend
+from facemorph.core.normals import NormalsOf
+from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.gl.surface import Surface
+
+if TYPE_CHECKING:
+    import moderngl
+
+
+class CpuMorph:
+    """Fills a surface's morphed buffer from a pose."""
+
+    def __init__(self, ctx: moderngl.Context, rig: Rig, surface: Surface, blend: Blend) -> None:
+        self._rig = rig
+        self._surface = surface
+        self._blend = blend
+        self._normals_of = NormalsOf(surface.triangles.vertices, rig.neutral.vertex_count)
+        self._drawn = np.empty((surface.drawn_count, 6), np.float32)
+
+    def update(self, pose: Pose, *, exactly: bool) -> None:
+        """Morph to `pose`; `exactly` makes the result independent of the poses before."""
+        positions = self._blend(pose.coefficients(self._rig.names), exactly=exactly)
+        normals = self._normals_of(positions)
+        self._drawn[:, :3] = positions.take(self._surface.position_of, axis=0)
+        self._drawn[:, 3:] = normals.take(self._surface.position_of, axis=0)
+        if len(self._drawn):
+            self._surface.morphed.orphan()
+            self._surface.morphed.write(self._drawn)
+
+    def release(self) -> None:
+        """Nothing of the context's is held."""

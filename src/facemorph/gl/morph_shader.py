@@ -1,0 +1,199 @@
+"""The shader path: the sum and the exact normals made on the graphics card, in GL 3.3.
+
+Deltas lie in a texture array, a layer a shape. For each vertex a vertex shader adds up the ACTIVE shapes
+only; it knows their source, target and added weights, so that dragging the slider changes one uniform.
+The sums go as points into a float texture; from there a second pass makes each drawn vertex's normal
+from the triangles around it and feeds both back into the buffer that is drawn.
+
+Memory is bounded: the array has at most as many layers as fit in `MEMORY` bytes and as OpenGL has, and
+at least one; layers are filled when a shape first becomes active, and the least recently used one makes
+room. More active shapes than layers are added in several passes, each starting from the one before, so
+that there is no limit to how many may be active.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from facemorph.core.arrays import Float32, Float64, Int32, Int64
+from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.gl.grids import grid_size, list_texture, padded
+from facemorph.gl.programs import Programs
+from facemorph.gl.surface import Surface
+
+if TYPE_CHECKING:
+    import moderngl
+
+MEMORY = 256 * 1024 * 1024
+_CURVES = {"linear": 0, "cosine": 1}
+_BASE, _DELTAS, _ACTIVE, _POSITIONS, _RINGS, _RING_CORNERS = range(6)
+
+
+class ShaderMorph:
+    """Fills a surface's morphed buffer from a pose. `passes` counts morphing passes drawn."""
+
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        programs: Programs,
+        rig: Rig,
+        surface: Surface,
+        *,
+        max_layers: int | None = None,
+    ) -> None:
+        self._ctx = ctx
+        self._rig = rig
+        self._surface = surface
+        self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
+        self._count = rig.neutral.vertex_count
+        self._size = grid_size(self._count, self._largest)
+        self._layers = self._layer_count(max_layers)
+        self._layer_of: OrderedDict[int, int] = OrderedDict()
+        self._listed: tuple[bytes, ...] = ()
+        self._shapes: list[Float32] = []
+        self.passes = 0
+        self._make_textures(rig)
+        self._make_arrays(programs, surface)
+
+    def _layer_count(self, asked: int | None) -> int:
+        a_layer = self._size[0] * self._size[1] * 16
+        possible = min(int(self._ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]), MEMORY // a_layer)
+        return max(min(possible, len(self._rig.shapes), asked or possible), 1)
+
+    def _make_textures(self, rig: Rig) -> None:
+        ctx, size = self._ctx, self._size
+        nearest = (ctx.NEAREST, ctx.NEAREST)
+        neutral = np.ones((self._count, 4), np.float32)
+        neutral[:, :3] = rig.neutral.positions
+        self._neutral = list_texture(ctx, neutral, "f4", self._largest)
+        self._results = [ctx.texture(size, 4, dtype="f4") for _ in range(2)]
+        self._targets = [ctx.framebuffer([texture]) for texture in self._results]
+        self._deltas = ctx.texture_array((*size, self._layers), 3, dtype="f4")
+        self._active = ctx.texture((self._layers, 1), 4, dtype="f4")
+        self._deltas.filter = nearest
+        for texture in (*self._results, self._active):
+            texture.filter = nearest
+        rings, corners = vertex_rings(self._surface.triangles.vertices, self._count)
+        self._rings = list_texture(ctx, rings, "i4", self._largest)
+        self._ring_corners = list_texture(ctx, corners, "i4", self._largest)
+
+    def _make_arrays(self, programs: Programs, surface: Surface) -> None:
+        self._sum = programs.get("morph_positions.vert", "morph_positions.frag")
+        self._fill = programs.get("morph_drawn.vert", capture=("position", "normal"))
+        self._points = self._ctx.vertex_array(self._sum, [])
+        drawn = np.ascontiguousarray(surface.position_of, np.int32)
+        self._position_of = self._ctx.buffer(drawn.tobytes() or b"\0" * 4)
+        self._copies = self._ctx.vertex_array(self._fill, [(self._position_of, "1i", "position_of")])
+        _set(self._sum, base_positions=_BASE, deltas=_DELTAS, active_shapes=_ACTIVE, grid_size=self._size)
+        span = self._rig.neutral.diagonal or 1.0
+        _set(
+            self._fill, positions=_POSITIONS, rings=_RINGS, ring_corners=_RING_CORNERS, per_length=1.0 / span
+        )
+
+    def update(self, pose: Pose, *, exactly: bool) -> None:
+        """Morph to `pose`; the sum is always made in full here, so `exactly` changes nothing."""
+        self._list_shapes(pose)
+        _set(self._sum, t=float(pose.t), curve=_CURVES[pose.curve])
+        self._ctx.enable_only(self._ctx.NOTHING)
+        base = self._neutral
+        for step in range(max(-(-len(self._shapes) // self._layers), 1)):
+            base = self._add_pass(base, step)
+        self._fill_drawn(base)
+
+    def _list_shapes(self, pose: Pose) -> None:
+        """Which shapes are active and with which weights, (A, 4) rows: source, target, added, index."""
+        names = self._rig.names
+        states = [Pose.of(state).coefficients(names) for state in (pose.source, pose.target, pose.weights)]
+        listed = tuple(state.tobytes() for state in states)
+        if listed == self._listed:
+            return
+        self._listed = listed
+        weights: Float64 = np.stack(states, axis=1)
+        active = np.flatnonzero(weights.any(axis=1))
+        rows = np.concatenate([weights[active], active[:, None]], axis=1)
+        self._shapes = list(rows.astype(np.float32))
+        self._table_step = -1
+
+    def _add_pass(self, base: moderngl.Texture, step: int) -> moderngl.Texture:
+        """Add one table's worth of shapes to `base`; returns the texture of the sums."""
+        rows = self._shapes[step * self._layers : (step + 1) * self._layers]
+        if self._table_step != step:
+            self._write_table(rows)
+            self._table_step = step
+        _set(self._sum, active_count=len(rows))
+        base.use(_BASE)
+        self._deltas.use(_DELTAS)
+        self._active.use(_ACTIVE)
+        self._targets[step % 2].use()
+        if self._count:
+            self._points.render(self._ctx.POINTS, vertices=self._count)
+        self.passes += 1
+        return self._results[step % 2]
+
+    def _write_table(self, rows: list[Float32]) -> None:
+        table = np.zeros((self._layers, 4), np.float32)
+        wanted = [int(row[3]) for row in rows]
+        for i, (row, k) in enumerate(zip(rows, wanted, strict=True)):
+            table[i, :3] = row[:3]
+            table[i, 3] = self._layer(k, wanted)
+        self._active.write(table.tobytes())
+
+    def _layer(self, k: int, wanted: list[int]) -> int:
+        """The layer that holds shape k, filled now if it was in none."""
+        if k not in self._layer_of:
+            layer = len(self._layer_of)
+            if layer >= self._layers:
+                oldest = next(shape for shape in self._layer_of if shape not in wanted)
+                layer = self._layer_of.pop(oldest)
+            data = padded(self._rig.deltas[k], self._size)
+            self._deltas.write(data, viewport=(0, 0, layer, *self._size, 1))
+            self._layer_of[k] = layer
+        self._layer_of.move_to_end(k)
+        return self._layer_of[k]
+
+    def _fill_drawn(self, positions: moderngl.Texture) -> None:
+        positions.use(_POSITIONS)
+        self._rings.use(_RINGS)
+        self._ring_corners.use(_RING_CORNERS)
+        # Nothing is drawn, but without a framebuffer bound the feedback is wrong on some drivers; and
+        # it must not be the one whose texture is read.
+        other = self._targets[0] if positions is not self._results[0] else self._targets[1]
+        other.use()
+        if self._surface.drawn_count:
+            self._copies.transform(
+                self._surface.morphed, self._ctx.POINTS, vertices=self._surface.drawn_count
+            )
+
+    def release(self) -> None:
+        """Give back what the context holds."""
+        for array in (self._points, self._copies):
+            array.release()
+        for target in self._targets:
+            target.release()
+        for texture in (*self._results, self._neutral, self._active, self._rings, self._ring_corners):
+            texture.release()
+        self._deltas.release()
+        self._position_of.release()
+
+
+def vertex_rings(triangles: Int32, vertex_count: int) -> tuple[Int32, Int32]:
+    """For each vertex the triangles around it: rings (V, 2) start and count; corners (3 T, 2) the others.
+
+    Corner (a, b) of vertex v stands for the triangle (v, a, b), turning as the triangle does.
+    """
+    corner_of = triangles.reshape(-1).astype(np.int64)
+    order: Int64 = np.argsort(corner_of, kind="stable")
+    count = np.bincount(corner_of, minlength=vertex_count)
+    rings = np.stack([np.cumsum(count) - count, count], axis=1).astype(np.int32)
+    following = triangles[:, [1, 2, 0]].reshape(-1)[order]
+    before = triangles[:, [2, 0, 1]].reshape(-1)[order]
+    return rings, np.stack([following, before], axis=1).astype(np.int32)
+
+
+def _set(program: moderngl.Program, **values: object) -> None:
+    for name, value in values.items():
+        program[name].value = value  # type: ignore[union-attr]

@@ -1,0 +1,215 @@
+"""`Renderer`: draws a rig in a pose from a camera into its own framebuffer.
+
+The window shows that framebuffer; pictures and tests read it. Drawing goes in two stages: MORPH fills
+one buffer of positions and normals, and only when a coefficient changed; every pass of DRAW reads that
+buffer as plain vertex attributes. So a frame costs what a static mesh costs, and moving the camera
+blends nothing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, Protocol
+
+import numpy as np
+
+from facemorph.core.arrays import Float32, Float64, UInt8
+from facemorph.core.blend import Blend
+from facemorph.core.camera import Camera
+from facemorph.core.picture import Look, checked_size
+from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.errors import GraphicsError, OptionError
+from facemorph.gl.describe import describe
+from facemorph.gl.heat import Legend, displacements, heat_end, heat_legend
+from facemorph.gl.lights import Lights
+from facemorph.gl.painter import Painter
+from facemorph.gl.picking import Pick, pick
+from facemorph.gl.programs import Programs
+from facemorph.gl.surface import Surface
+from facemorph.gl.target import Target
+
+if TYPE_CHECKING:
+    import moderngl
+
+MorphPath = Literal["auto", "shader", "cpu"]
+Quality = Literal["full", "fast"]
+SAMPLES = 4
+
+
+class Morph(Protocol):
+    """A way to fill a surface's morphed buffer."""
+
+    def update(self, pose: Pose, *, exactly: bool) -> None:
+        """Morph to `pose`."""
+
+    def release(self) -> None:
+        """Give back what the context holds."""
+
+
+@dataclass
+class Stats:
+    """What was done since the face was loaded: frames drawn, and how many of them had to morph."""
+
+    frames: int = 0
+    morphs: int = 0
+
+
+class Renderer:
+    """Draws one rig at a time with one context. `problems` tells what could not be shown, a line each.
+
+    morph   which path fills the vertices: "shader" on a graphics card, "cpu" where OpenGL itself runs
+            on the CPU; "auto" chooses by the context's renderer
+    """
+
+    def __init__(
+        self, ctx: moderngl.Context, morph: MorphPath = "auto", *, lights: Lights | None = None
+    ) -> None:
+        if morph not in ("auto", "shader", "cpu"):
+            raise OptionError(f"a morph path is auto, shader or cpu; not {morph!r}.")
+        self.ctx = ctx
+        self.graphics = describe(ctx)
+        self.path = self.graphics.morph if morph == "auto" else morph
+        self.stats = Stats()
+        self._programs = Programs(ctx)
+        self._target = Target(ctx)
+        self._painter = Painter(ctx, self._programs, lights or Lights(), software=self.graphics.software)
+        self._rig: Rig | None = None
+        self._surface: Surface | None = None
+        self._morph: Morph | None = None
+        self._blend: Blend | None = None
+        self._shown: tuple[Pose, Float64] | None = None
+        self._exact = False
+        self._drawn: tuple[Camera, tuple[int, int]] | None = None
+        self._legend: Legend | None = None
+
+    def load(self, rig: Rig) -> None:
+        """Take `rig` in place of the one before. Raises `GraphicsError` where OpenGL cannot hold it."""
+        self._unload()
+        self._rig = rig
+        self._surface = Surface(self.ctx, rig.neutral)
+        self._blend = Blend(rig.neutral.positions, rig.deltas)
+        self._morph = self._new_morph(rig, self._surface, self._blend)
+        self.stats = Stats()
+
+    def _new_morph(self, rig: Rig, surface: Surface, blend: Blend) -> Morph:
+        if self.path == "shader":
+            from facemorph.gl.morph_shader import ShaderMorph
+
+            return ShaderMorph(self.ctx, self._programs, rig, surface)
+        from facemorph.gl.morph_cpu import CpuMorph
+
+        return CpuMorph(self.ctx, rig, surface, blend)
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What of the loaded face could not be shown (a texture that cannot be read), a line each."""
+        return tuple(self._painter.problems)
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The finished picture for the window (`texture.glo`); its first row is the lowest."""
+        return self._target.texture
+
+    @property
+    def legend(self) -> Legend | None:
+        """The legend of the picture drawn last, or None where its shading needs none."""
+        return self._legend
+
+    def draw(
+        self,
+        pose: Pose,
+        camera: Camera,
+        look: Look,
+        size: tuple[int, int],
+        *,
+        quality: Quality = "full",
+        exactly: bool = False,
+    ) -> None:
+        """Draw `pose` seen by `camera` at `size` pixels (width, height) into the own framebuffer.
+
+        quality   "fast" leaves out antialiasing where OpenGL runs on the CPU (it doubles the frame
+                  there): for frames while something moves; "full" for still ones and pictures
+        exactly   morph in full, so that equal arguments give equal pixels whatever was drawn before
+
+        Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size.
+        """
+        rig, surface = self._loaded()
+        size = checked_size(size)
+        # Asked of GL itself: a window's interface binds framebuffers that moderngl has not seen.
+        outer = self.ctx.detect_framebuffer()
+        hurried = quality == "fast" and self.graphics.software
+        samples = 0 if hurried else min(SAMPLES, self.graphics.max_samples)
+        try:
+            self._update(pose, rig, exactly=exactly)
+            look = self._with_heat_end(look, rig)
+            framebuffer = self._target.prepare(size, samples)
+            self._painter.paint(framebuffer, surface, camera, look, size)
+            self._target.finish(framebuffer)
+        finally:
+            self._painter.restore(outer)
+        self._drawn = (camera, size)
+        self.stats.frames += 1
+
+    def read(self) -> UInt8:
+        """The picture drawn last, (H, W, 4) uint8 sRGB with straight alpha, top row first."""
+        return self._target.read()
+
+    def positions(self) -> Float32:
+        """Positions (V, 3) of the face as drawn last, model units; made on the CPU, nothing is read back."""
+        rig, _ = self._loaded()
+        assert self._blend is not None
+        pose = self._shown[0] if self._shown else Pose()
+        return self._blend(pose.coefficients(rig.names))
+
+    def pick(self, x: float, y: float) -> Pick | None:
+        """What lies at pixel (x, y) of the picture drawn last, from its top left; None beside the face."""
+        _, surface = self._loaded()
+        if self._drawn is None:
+            raise GraphicsError("nothing has been drawn yet; call draw first.")
+        camera, size = self._drawn
+        return pick(self.positions(), surface.triangles, camera, size, x, y)
+
+    def _loaded(self) -> tuple[Rig, Surface]:
+        if self._rig is None or self._surface is None:
+            raise GraphicsError("no face is loaded; call load first.")
+        return self._rig, self._surface
+
+    def _update(self, pose: Pose, rig: Rig, *, exactly: bool) -> None:
+        """MORPH: only when a coefficient changed since the last frame."""
+        coefficients = pose.coefficients(rig.names)
+        same = self._shown is not None and np.array_equal(self._shown[1], coefficients)
+        if same and (self._exact or not exactly):
+            return
+        assert self._morph is not None
+        self._morph.update(pose, exactly=exactly)
+        self._shown, self._exact = (pose, coefficients), exactly
+        self.stats.morphs += 1
+
+    def _with_heat_end(self, look: Look, rig: Rig) -> Look:
+        """`look` with the heat map's end settled, and its legend made."""
+        if look.shading != "heat":
+            self._legend = None
+            return look
+        unit, end = rig.info.unit, look.heat_max
+        if end is None or not end > 0.0:
+            largest = float(displacements(self.positions(), rig.neutral.positions).max(initial=0.0))
+            end = heat_end(largest, unit, rig.neutral.diagonal or 1.0)
+        if self._legend is None or self._legend.high != end:
+            self._legend = heat_legend(end, unit)
+        return replace(look, heat_max=end)
+
+    def _unload(self) -> None:
+        self._painter.forget()
+        for held in (self._morph, self._surface):
+            if held is not None:
+                held.release()
+        self._rig = self._surface = self._morph = self._blend = None
+        self._shown = self._drawn = self._legend = None
+
+    def release(self) -> None:
+        """Give everything back to the context; the context itself is its maker's."""
+        self._unload()
+        self._target.release()
+        self._painter.release()
+        self._programs.release()

@@ -1,0 +1,124 @@
+"""A contact sheet: neutral and every expression of a face as labelled tiles, all by one camera."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from facemorph.core.arrays import UInt8
+from facemorph.core.camera import Camera
+from facemorph.core.picture import LARGEST_SIDE, Look, checked_size
+from facemorph.core.pose import NEUTRAL, Pose
+from facemorph.core.rig import EXPRESSION, Rig
+from facemorph.errors import OptionError
+from facemorph.gl.labels import as_image, fitted, font
+from facemorph.gl.offscreen import Offscreen
+
+
+def sheet(
+    screen: Offscreen,
+    rig: Rig,
+    *,
+    tile: tuple[int, int] = (320, 320),
+    camera: Camera | str = "front",
+    look: Look | None = None,
+    names: tuple[str, ...] | None = None,
+) -> UInt8:
+    """Neutral and `names` (every expression; every shape where the rig has none) as (H, W, 4) uint8.
+
+    `tile` is one tile's (width, height) in pixels; the tiles stand in rows, each under its label, with the
+    face's name above them. Raises `OptionError` where the sheet would be too large.
+    """
+    look = look or Look()
+    width, height = checked_size(tile)
+    states = _states(rig, names)
+    columns = _columns(len(states), width, height)
+    rows = math.ceil(len(states) / columns)
+    strip, head = _strip_height(tile), round(_strip_height(tile) * 1.5)
+    full = (columns * width, head + rows * (height + strip))
+    if max(full) > 2 * LARGEST_SIDE:
+        raise OptionError(
+            f"{len(states)} tiles of {width}x{height} make a sheet of {full[0]}x{full[1]} pixels; "
+            f"at most {2 * LARGEST_SIDE} a side. Ask for smaller tiles."
+        )
+    if isinstance(camera, str):
+        camera = Camera.framing(rig.neutral.bounds, camera, width / height)
+    result = np.empty((full[1], full[0], 4), np.uint8)
+    result[:] = _paper(look)
+    for i, (name, _) in enumerate(states):
+        top, left = head + (i // columns) * (height + strip), (i % columns) * width
+        pose = Pose.between(NEUTRAL, name, 1.0)
+        pixels = screen.render(rig, pose, size=tile, camera=camera, look=look)
+        result[top : top + height, left : left + width] = pixels
+    return _lettered(result, rig.info.name, [label for _, label in states], columns, tile, head, strip, look)
+
+
+def _states(rig: Rig, names: tuple[str, ...] | None) -> list[tuple[str, str]]:
+    """Name and label of each tile."""
+    if names is not None:
+        shapes = [rig.shape(name) for name in names if name != NEUTRAL]
+    else:
+        shapes = list(rig.shapes_in(EXPRESSION) or rig.shapes)
+    return [(NEUTRAL, "Neutral"), *((shape.name, shape.label) for shape in shapes)]
+
+
+def _columns(count: int, width: int, height: int) -> int:
+    """So many columns that the sheet is about 16:10 and its last row not nearly empty."""
+    wanted = math.sqrt(count * 1.6 * height / width)
+    choices = [n for n in range(1, count + 1) if 0.6 * wanted <= n <= 1.6 * wanted] or [count]
+    return min(choices, key=lambda n: ((-count) % n / n + abs(math.log(n / wanted)), n))
+
+
+def _strip_height(tile: tuple[int, int]) -> int:
+    return round(_letter_size(tile) * 1.9)
+
+
+def _letter_size(tile: tuple[int, int]) -> float:
+    return float(np.clip(min(tile) / 15.0, 9.0, 34.0))
+
+
+def _paper(look: Look) -> UInt8:
+    """The sheet's own colour: the look's background, a little darker."""
+    red, green, blue, alpha = look.background
+    colour = [red * 0.62, green * 0.62, blue * 0.62, alpha]
+    return (np.clip(colour, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+
+
+def _lettered(
+    sheet_pixels: UInt8,
+    title: str,
+    labels: list[str],
+    columns: int,
+    tile: tuple[int, int],
+    head: int,
+    strip: int,
+    look: Look,
+) -> UInt8:
+    from PIL import ImageDraw
+
+    picture = as_image(sheet_pixels)
+    pen = ImageDraw.Draw(picture)
+    luminance = float(np.dot(look.background[:3], (0.3, 0.6, 0.1)))
+    ink = (
+        (236, 238, 242, 255)
+        if luminance * look.background[3] < 0.5 and look.background[3] > 0.5
+        else (24, 26, 30, 255)
+    )
+    if look.background[3] <= 0.5:
+        ink = (128, 132, 140, 255)
+    width, height = tile
+    size = _letter_size(tile)
+    large, small = font(size * 1.3), font(size)
+    pen.text(
+        (size * 0.7, head / 2),
+        fitted(title, large, columns * width - size * 1.4),
+        font=large,
+        fill=ink,
+        anchor="lm",
+    )
+    for i, label in enumerate(labels):
+        x = (i % columns) * width + width / 2
+        y = head + (i // columns) * (height + strip) + height + strip / 2
+        pen.text((x, y), fitted(label, small, width - size), font=small, fill=ink, anchor="mm")
+    return np.asarray(picture, np.uint8)

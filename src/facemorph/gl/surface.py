@@ -1,0 +1,150 @@
+"""`Surface`: a mesh as the graphics card draws it; vertices split at texture seams, triangles by material.
+
+The morphed positions and normals live in one buffer, which a morph path fills and every pass draws.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from facemorph.core.arrays import Int32, Int64, UInt8
+from facemorph.core.mesh import Material, Mesh
+from facemorph.core.split import split_vertices
+from facemorph.core.triangles import Triangles, triangulated
+from facemorph.gl.hem import Hem, hem_of
+from facemorph.gl.materials import PLAIN
+
+if TYPE_CHECKING:
+    import moderngl
+
+MORPHED_BYTES = 24  # position and normal, three float32 each
+
+
+@dataclass(frozen=True)
+class Part:
+    """A run of triangles drawn alike: material, first triangle, how many, whether they fade at the hem."""
+
+    material: Material
+    first: int
+    count: int
+    in_hem: bool
+
+
+class Surface:
+    """G drawn vertices and T triangles of a mesh of V positions.
+
+    position_of  (G,) int32, the position each drawn vertex is a copy of
+    order        (T,) the mesh's triangles in the order they are drawn
+    morphed      buffer of (G, 6) float32: position and normal of each drawn vertex
+    """
+
+    def __init__(self, ctx: moderngl.Context, mesh: Mesh) -> None:
+        self._ctx = ctx
+        self.mesh = mesh
+        self.triangles: Triangles = triangulated(mesh)
+        split = split_vertices(mesh, self.triangles)
+        self.position_of: Int32 = split.position_of
+        self.drawn_count = len(split.position_of)
+        self.triangle_count = len(split.triangles)
+        self.hem: Hem | None = hem_of(mesh, self.triangles.vertices)
+        self.parts, self.order = _parts(mesh, self.triangles, self.hem)
+        self._uvs = split.uvs
+        self._buffers: dict[str, moderngl.Buffer] = {}
+        self._arrays: dict[int, moderngl.VertexArray] = {}
+        self._edges: moderngl.Texture | None = None
+        self.morphed = ctx.buffer(reserve=max(self.drawn_count, 1) * MORPHED_BYTES, dynamic=True)
+        indices = np.ascontiguousarray(split.triangles[self.order], np.uint32)
+        self._indices = ctx.buffer(indices.tobytes() if len(indices) else b"\0" * 12)
+
+    def vertex_array(self, program: moderngl.Program) -> moderngl.VertexArray:
+        """The surface bound to the attributes that `program` reads."""
+        if program.glo not in self._arrays:
+            self._arrays[program.glo] = self._ctx.vertex_array(program, self._content(program), self._indices)
+        return self._arrays[program.glo]
+
+    def _content(self, program: moderngl.Program) -> list[tuple[object, ...]]:
+        wanted = [name for name in ("position", "normal") if name in program]
+        layout = {1: "3f 12x", 2: "3f 3f"}[len(wanted)]
+        content: list[tuple[object, ...]] = [(self.morphed, layout, *wanted)]
+        for name, form in (("uv", "2f"), ("colour", "3f1"), ("neutral", "3f")):
+            if name in program:
+                content.append((self._static(name), form, name))
+        return content
+
+    def _static(self, name: str) -> moderngl.Buffer:
+        if name not in self._buffers:
+            values = np.ascontiguousarray(self._values(name))
+            self._buffers[name] = self._ctx.buffer(values.tobytes() or b"\0")
+        return self._buffers[name]
+
+    def _values(self, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float32 | np.uint8]]:
+        if name == "uv":
+            return self._uvs
+        if name == "neutral":
+            return self.mesh.positions[self.position_of]
+        colours = self.mesh.colours
+        if colours is None:
+            return np.full((self.drawn_count, 3), 255, np.uint8)
+        return (np.clip(colours[self.position_of], 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+
+    def polygon_edges(self) -> moderngl.Texture:
+        """For each triangle in drawing order, which of its edges belong to a polygon: bits 1, 2 and 4."""
+        if self._edges is None:
+            bits = polygon_edge_bits(self.mesh, self.triangles)[self.order]
+            width = min(4096, max(len(bits), 1))
+            rows = -(-max(len(bits), 1) // width)
+            padded = np.zeros(width * rows, np.uint8)
+            padded[: len(bits)] = bits
+            self._edges = self._ctx.texture((width, rows), 1, padded.tobytes(), dtype="u1")
+        return self._edges
+
+    def release(self) -> None:
+        """Give every buffer back to the context."""
+        for array in self._arrays.values():
+            array.release()
+        for buffer in (*self._buffers.values(), self.morphed, self._indices):
+            buffer.release()
+        if self._edges is not None:
+            self._edges.release()
+
+
+def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
+    """(T,) bits: bit i is set where the edge from corner i to corner i + 1 is one of the polygon's own."""
+    starts = mesh.polygon_starts.astype(np.int64)
+    first = starts[triangles.polygon]
+    last = starts[triangles.polygon + 1] - 1
+    corners = triangles.corners.astype(np.int64)
+    bits = np.zeros(len(corners), np.uint8)
+    for i in range(3):
+        here, there = corners[:, i], corners[:, (i + 1) % 3]
+        following = np.where(here == last, first, here + 1)
+        bits |= (there == following).astype(np.uint8) << i
+    return bits
+
+
+def _parts(mesh: Mesh, triangles: Triangles, hem: Hem | None) -> tuple[tuple[Part, ...], Int64]:
+    """The runs to draw, opaque ones first, and the order of triangles that makes them."""
+    materials, of_triangle = _materials(mesh, triangles.polygon)
+    in_hem = np.zeros(len(triangles.polygon), bool) if hem is None else hem.triangles
+    see_through = np.array([material.opacity < 1.0 for material in materials])
+    key = (see_through[of_triangle].astype(np.int64) * 2 + in_hem) * len(materials) + of_triangle
+    order = np.argsort(key, kind="stable")
+    found, first, count = np.unique(key[order], return_index=True, return_counts=True)
+    parts = tuple(
+        Part(materials[int(k) % len(materials)], int(f), int(n), bool((int(k) // len(materials)) % 2))
+        for k, f, n in zip(found, first, count, strict=True)
+    )
+    return parts, order
+
+
+def _materials(mesh: Mesh, polygon: Int32) -> tuple[Sequence[Material], Int64]:
+    """The materials in use and, for each triangle, which one."""
+    used = mesh.materials_used
+    if used is None or not used.names:
+        return (PLAIN,), np.zeros(len(polygon), np.int64)
+    known = [mesh.materials.get(name, Material(name, diffuse=PLAIN.diffuse)) for name in used.names]
+    return (*known, PLAIN), np.where(used.index < 0, len(known), used.index)[polygon].astype(np.int64)

@@ -20,7 +20,7 @@ from .shaping import Shaper
 from .source import Source
 from .subdivide import vertex_normals
 
-SKIN_VERTICES = 7400
+SKIN_VERTICES = 8100
 CENTIMETRES = 10.0
 # MakeHuman's joint cubes at the centres of both eyes.
 EYE_JOINTS = slice(13606, 13622)

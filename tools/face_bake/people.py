@@ -9,6 +9,9 @@ from .phenotype import Phenotype
 
 # MakeHuman's young adults part their lips and lower their brows; this closes and lifts them.
 REST = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.32, "mh:eyebrows-up": 0.10}
+# The men's inner brows already sit high and their lids low: lifting those more would look worried.
+REST_OF_MEN = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.06, "mh:eyebrows-up": 0.16,
+               "mh:eyebrows-extern-up": 0.18, "mh:eye-opened-up": 0.20}
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,7 @@ BEN = Person(
          iris=(0.33, 0.25, 0.14), brow_thickness=1.15, brow_arch=-0.006, stubble=0.75, blush=0.7),
     {"nose/nose-scale-vert-decr": 0.3, "head/head-square": 0.35, "mouth/mouth-angles-up": 0.2,
      "chin/chin-width-incr": 0.2},
+    rest=REST_OF_MEN,
 )
 MEI = Person(
     "mei", "Mei", "A young woman with light skin, black hair and dark brown eyes.",
@@ -79,6 +83,7 @@ KOFI = Person(
          iris=(0.14, 0.08, 0.05), hair_style="buzz", hair_strength=0.93, brow_thickness=1.05,
          lip_strength=0.7, lid=(0.88, 0.84, 0.82), stubble=0.35),
     {"mouth/mouth-angles-up": 0.25},
+    rest=REST_OF_MEN,
 )
 ZOLA = Person(
     "zola", "Zola", "A young woman with brown skin, cropped black hair and brown eyes.",
@@ -94,5 +99,6 @@ OMAR = Person(
     Look(skin=(0.74, 0.55, 0.43), lips=(0.62, 0.36, 0.33), hair=(0.42, 0.40, 0.39), brow=(0.24, 0.22, 0.21),
          iris=(0.22, 0.14, 0.08), brow_thickness=1.2, stubble=0.6, blush=0.6),
     {"mouth/mouth-angles-up": 0.2},
+    rest=REST_OF_MEN,
 )
 PEOPLE = {person.id: person for person in (ADA, BEN, MEI, KOFI, ZOLA, OMAR)}

@@ -15,8 +15,8 @@ EXPRESSIONS = {
         "arkit:browInnerUp": 0.10, "mh:eyebrows-up": 0.10,
     },
     "sad": {
-        "mh:eyebrows-inner-up": 1.15, "arkit:browInnerUp": 0.9, "mh:eyebrows-down": 0.35,
-        "mh:eyebrows-extern-up": -0.25, "arkit:mouthFrown": 1.0, "mh:mouth-depression": 0.75,
+        "mh:eyebrows-inner-up": 1.25, "arkit:browInnerUp": 1.0, "mh:eyebrows-down": 0.35,
+        "mh:eyebrows-extern-up": -0.35, "arkit:mouthFrown": 1.0, "mh:mouth-depression": 0.75,
         "arkit:mouthShrugLower": 0.55, "arkit:eyeBlink": 0.16, "arkit:eyeLookDown": 0.45,
         "arkit:cheekSquint": 0.12,
     },

@@ -29,8 +29,8 @@ def _shares(points: np.ndarray) -> np.ndarray:
     across, up = np.abs(points[:, 0]), points[:, 1]
     claims = [sum(np.exp(-(((across - x) / a) ** 2) - ((up - y) / b) ** 2) for x, y, a, b in spots)
               for spots in SPOTS.values()]
-    # Squaring narrows the borders; the tiny constant keeps far points defined.
-    claims = np.stack(claims, -1) ** 2 + 1e-30
+    # The tiny constant keeps points far from every spot defined.
+    claims = np.stack(claims, -1) + 1e-30
     return claims / claims.sum(1, keepdims=True)
 
 

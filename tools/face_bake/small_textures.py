@@ -57,6 +57,7 @@ def teeth_picture(width: int = 512, height: int = 128, rows: int = 12) -> Image.
     tooth = np.array([0.93, 0.90, 0.82]) * (1 - 0.06 * smoothstep(5.5, 3.0, row)) * (1 + 0.015 * grain)
     gum = smoothstep(3.35, 2.75, row)
     colours = tooth * (1 - gum) + np.array([0.72, 0.38, 0.37]) * (1 + 0.07 * grain) * gum
-    colours = colours * (1 - 0.75 * smoothstep(8.3, 9.2, row))
+    back = smoothstep(8.3, 9.2, row)
+    colours = colours * (1 - back) + np.array([0.24, 0.13, 0.12]) * back
     aside = np.abs((column + 0.5) / width * 2 - 1)[..., None]
     return _picture(colours * (1 - 0.80 * smoothstep(0.34, 0.80, aside)))

@@ -24,6 +24,11 @@ in vec3 neutral;
 out float displacement;
 #endif
 
+#ifdef HEM
+in float kept;
+out float surface_kept;
+#endif
+
 invariant gl_Position;
 
 void main() {
@@ -37,6 +42,9 @@ void main() {
 #endif
 #ifdef HEAT
     displacement = distance(position, neutral);
+#endif
+#ifdef HEM
+    surface_kept = kept;
 #endif
     gl_Position = clip_from_model * vec4(position, 1.0);
 }

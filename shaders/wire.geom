@@ -9,11 +9,11 @@ layout(triangle_strip, max_vertices = 3) out;
 uniform usampler2D polygon_edges;      // for each triangle, which of its edges are the polygon's
 uniform vec2 picture_size;
 
-in vec3 surface_position[];
+in float surface_kept[];
 
 noperspective out vec3 edge_distance;
 noperspective out float coarseness;
-out float height;
+out float line_kept;
 
 const float FAR_AWAY = 1e4;
 
@@ -34,12 +34,11 @@ void main() {
     // Edge i runs from corner i to the next; the corner across from it is i + 2.
     vec3 reach = area / max(vec3(distance(a, b), distance(b, c), distance(c, a)), 1e-6);
     vec3 absent = FAR_AWAY * vec3((edges & 1u) == 0u, (edges & 2u) == 0u, (edges & 4u) == 0u);
-    float longest = max(distance(a, b), max(distance(b, c), distance(c, a)));
     mat3 to_edges = mat3(0.0, reach.y, 0.0, 0.0, 0.0, reach.z, reach.x, 0.0, 0.0);
     for (int i = 0; i < 3; ++i) {
         edge_distance = to_edges[i] + absent;
-        coarseness = longest;
-        height = surface_position[i].y;
+        coarseness = min(reach.x, min(reach.y, reach.z));
+        line_kept = surface_kept[i];
         gl_Position = gl_in[i].gl_Position;
         EmitVertex();
     }

@@ -11,7 +11,7 @@ layout(location = 0) out vec4 colour;
 
 #ifdef HEM
 #include "lib/backdrop.glsl"
-uniform vec2 hem;                      // the heights between which a bust's lower end fades away
+in float surface_kept;                 // 0 at a bust's cut edge, 1 away from it
 #endif
 
 // The normal on the side that is seen: open surfaces have two.
@@ -29,6 +29,6 @@ vec3 towards_camera() {
 void show(vec3 srgb, float opacity) {
     colour = vec4(srgb * opacity, opacity);
 #ifdef HEM
-    colour = mix(backdrop(gl_FragCoord.xy), colour, smoothstep(hem.x, hem.y, surface_position.y));
+    colour = mix(backdrop(gl_FragCoord.xy), colour, smoothstep(0.0, 1.0, surface_kept));
 #endif
 }

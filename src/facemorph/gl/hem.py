@@ -6,20 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facemorph.core.arrays import Bool, Int32
+from facemorph.core.arrays import Bool, Float32, Int32
 from facemorph.core.mesh import Mesh
 
 LOW_PART = 0.25  # of the height: a cut that reaches higher is the rim of a mask, not of a bust
-FADE = 0.10  # of the height: how long the fade is
+FADE = 0.11  # of the height: how long the fade is
 WIDE_ENOUGH = 0.3  # of the box's width: smaller holes are no cut through a neck or chest
+_MOST_RIM_POINTS = 400
 
 
 @dataclass(frozen=True, eq=False)
 class Hem:
-    """Heights (model units) between which the surface fades in, and the triangles (T,) bool it touches."""
+    """How much of each vertex is kept, (V,) float32, 0 at the cut to 1, and the triangles (T,) bool that fade."""
 
-    low: float
-    high: float
+    kept: Float32
     triangles: Bool
 
 
@@ -28,26 +28,31 @@ def hem_of(mesh: Mesh, triangles: Int32) -> Hem | None:
 
     A bust is open along edges of one triangle only, all of them in the lowest quarter of its height.
     """
-    if not len(triangles):
-        return None
     low, high = (float(value) for value in mesh.bounds[:, 1])
     height = high - low
-    line = low + LOW_PART * height
-    if height <= 0.0:
+    if not len(triangles) or not height > 0.0:
         return None
-    below = mesh.positions[:, 1] < line
+    below = mesh.positions[:, 1] < low + LOW_PART * height
     rim = _open_edges(triangles[below[triangles].any(axis=1)], below, mesh.vertex_count)
     if not len(rim) or not below[rim].all():
         return None
     points = mesh.positions[np.unique(rim)]
-    width = float(np.ptp(mesh.positions[:, 0]))
-    if float(np.ptp(points[:, 0])) < WIDE_ENOUGH * width:
+    if float(np.ptp(points[:, 0])) < WIDE_ENOUGH * float(np.ptp(mesh.positions[:, 0])):
         return None
-    start = min(float(points[:, 1].max()), low + 0.06 * height)
-    end = start + FADE * height
-    lowly = mesh.positions[:, 1] < end + 0.05 * height
-    touched: Bool = np.asarray(lowly[triangles].any(axis=1))
-    return Hem(start, end, touched)
+    kept = np.ones(mesh.vertex_count, np.float32)
+    near = np.flatnonzero(mesh.positions[:, 1] < float(points[:, 1].max()) + FADE * height)
+    kept[near] = np.minimum(_distance_to(points, mesh.positions[near]) / (FADE * height), 1.0)
+    return Hem(kept, np.asarray((kept < 1.0)[triangles].any(axis=1)))
+
+
+def _distance_to(points: Float32, positions: Float32) -> Float32:
+    """From each position (n, 3) to the nearest of the points, (n,)."""
+    points = points[:: max(len(points) // _MOST_RIM_POINTS, 1)]
+    nearest = np.full(len(positions), np.inf, np.float32)
+    for point in points:
+        away = positions - point
+        np.minimum(nearest, np.einsum("ni,ni->n", away, away), out=nearest)
+    return np.asarray(np.sqrt(nearest), np.float32)
 
 
 def _open_edges(triangles: Int32, below: Bool, vertex_count: int) -> Int32:

@@ -20,14 +20,14 @@ LAG_DEG = 18.0
 class Lights:
     """Intensities (linear RGB) of the lights, and azimuth and elevation in degrees from the camera."""
 
-    key: Light = (1.42, 1.34, 1.24)
-    key_from: tuple[float, float] = (-38.0, 34.0)
-    fill: Light = (0.34, 0.38, 0.44)
-    fill_from: tuple[float, float] = (52.0, 4.0)
-    rim: Light = (1.25, 1.32, 1.45)
-    rim_from: tuple[float, float] = (150.0, 40.0)
-    sky: Light = (0.30, 0.32, 0.36)
-    floor: Light = (0.15, 0.125, 0.11)
+    key: Light = (1.62, 1.52, 1.40)
+    key_from: tuple[float, float] = (-42.0, 36.0)
+    fill: Light = (0.30, 0.34, 0.40)
+    fill_from: tuple[float, float] = (48.0, 6.0)
+    rim: Light = (2.3, 2.4, 2.6)
+    rim_from: tuple[float, float] = (150.0, 35.0)
+    sky: Light = (0.26, 0.28, 0.32)
+    floor: Light = (0.13, 0.105, 0.095)
 
     def uniforms(self, camera: Camera) -> dict[str, Light]:
         """Values for `shaders/lib/light.glsl` as seen by `camera`; directions in the model's space."""

@@ -16,20 +16,24 @@ class Finish:
     wrap       how far the key light reaches past the terminator, for red, green and blue
     gloss      strength of the highlight, `sharpness` its exponent
     sheen      how strongly the rim light shows at grazing angles
+    recess     how much light the surroundings keep away: lids from an eye, the mouth from teeth
+    shade      factor on the colour, for what lies inside the mouth
     """
 
     wrap: Colour
     gloss: float
     sharpness: float
     sheen: float
+    recess: float = 0.0
+    shade: float = 1.0
 
 
-SKIN = Finish(wrap=(0.42, 0.24, 0.18), gloss=0.05, sharpness=14.0, sheen=1.0)
-EYE = Finish(wrap=(0.30, 0.28, 0.28), gloss=1.6, sharpness=420.0, sheen=0.15)
-TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.22, sharpness=60.0, sheen=0.2)
-TONGUE = Finish(wrap=(0.45, 0.25, 0.22), gloss=0.14, sharpness=36.0, sheen=0.3)
+SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=2.0)
+EYE = Finish(wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.62, shade=0.86)
+TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.20, sharpness=60.0, sheen=0.0, shade=0.74)
+TONGUE = Finish(wrap=(0.40, 0.20, 0.17), gloss=0.10, sharpness=36.0, sheen=0.0, shade=0.7)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
-CLAY = Finish(wrap=(0.26, 0.24, 0.22), gloss=0.05, sharpness=18.0, sheen=0.8)
+CLAY = Finish(wrap=(0.22, 0.20, 0.18), gloss=0.05, sharpness=18.0, sheen=1.0)
 
 # A name contains the word; the first that fits is taken, so "eyelash" is a lash and no eye.
 _BY_WORD: tuple[tuple[str, Finish], ...] = (

@@ -81,7 +81,6 @@ class Painter:
             "background": look.background,
             "picture_size": (float(size[0]), float(size[1])),
             "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
-            "hem": (surface.hem.low, surface.hem.high) if surface.hem else (0.0, 0.0),
         }
         scene.update(self._lights.uniforms(camera))
         return scene
@@ -125,13 +124,14 @@ class Painter:
             albedo = (1.0, 1.0, 1.0)
         values = {
             **scene,
-            "albedo": albedo,
+            "albedo": tuple(value * finish.shade for value in albedo),
             "opacity": part.material.opacity if painted else 1.0,
             "albedo_texture": 0,
             "wrap": finish.wrap,
             "gloss": finish.gloss,
             "sharpness": finish.sharpness,
             "sheen": finish.sheen,
+            "recess": finish.recess,
         }
         self._draw_plain(surface, part, values, "skin.frag", define)
 
@@ -143,10 +143,10 @@ class Painter:
         self._backdrop.render(self._ctx.TRIANGLES, vertices=3)
 
     def _draw_wire(self, surface: Surface, scene: Uniforms) -> None:
-        program = self._programs.get("face.vert", "wire.frag", "wire.geom")
+        program = self._programs.get("face.vert", "wire.frag", "wire.geom", define=["HEM"])
         surface.polygon_edges().use(1)
         line = (0.05, 0.055, 0.065, 0.85)
-        _assign(program, {**scene, "polygon_edges": 1, "line_colour": line, "fade_heights": scene["hem"]})
+        _assign(program, {**scene, "polygon_edges": 1, "line_colour": line})
         # Towards the camera by a hair: the same triangles' depths may differ in the last bit.
         self._ctx.polygon_offset = -1.0, -1.0
         surface.vertex_array(program).render()

@@ -70,7 +70,7 @@ class Surface:
         wanted = [name for name in ("position", "normal") if name in program]
         layout = {1: "3f 12x", 2: "3f 3f"}[len(wanted)]
         content: list[tuple[object, ...]] = [(self.morphed, layout, *wanted)]
-        for name, form in (("uv", "2f"), ("colour", "3f1"), ("neutral", "3f")):
+        for name, form in (("uv", "2f"), ("colour", "3f1"), ("neutral", "3f"), ("kept", "1f")):
             if name in program:
                 content.append((self._static(name), form, name))
         return content
@@ -86,6 +86,9 @@ class Surface:
             return self._uvs
         if name == "neutral":
             return self.mesh.positions[self.position_of]
+        if name == "kept":
+            kept = self.hem.kept if self.hem else np.ones(self.mesh.vertex_count, np.float32)
+            return kept[self.position_of]
         colours = self.mesh.colours
         if colours is None:
             return np.full((self.drawn_count, 3), 255, np.uint8)

@@ -16,6 +16,8 @@ SPOTS = {
 }
 PARTS = {"eye_L": "eyes", "eye_R": "eyes", "teeth_lower": "jaw", "tongue": "jaw", "lashes": "eyes"}
 FULL = 255
+# Higher powers of the claims make narrower borders.
+SHARPNESS = 1.5
 
 
 def _front(points: np.ndarray) -> np.ndarray:
@@ -30,7 +32,7 @@ def _shares(points: np.ndarray) -> np.ndarray:
     claims = [sum(np.exp(-(((across - x) / a) ** 2) - ((up - y) / b) ** 2) for x, y, a, b in spots)
               for spots in SPOTS.values()]
     # The tiny constant keeps points far from every spot defined.
-    claims = np.stack(claims, -1) + 1e-30
+    claims = np.stack(claims, -1) ** SHARPNESS + 1e-30
     return claims / claims.sum(1, keepdims=True)
 
 

@@ -10,7 +10,7 @@ from .paintkit import Noise, Plane, mix, smoothstep, tint
 from .people import Look
 
 RED = (1.02, 0.84, 0.81)
-MOUTH_LIGHT = 0.35
+MOUTH_LIGHT, LIP_LIGHT = 0.6, 0.3
 MOUTH_COLOUR = np.array([0.36, 0.13, 0.13], np.float32)
 
 
@@ -107,6 +107,6 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> 
     colour = mix(colour, MOUTH_COLOUR * (1 + 0.15 * mottling[:, None]), canvas.mouth)
     light = np.clip(light * 1.12, 0, 1)
     # The neutral's closed mouth is pitch dark inside; an open one is not.
-    light = np.maximum(light, MOUTH_LIGHT * canvas.mouth)
+    light = np.maximum(light, np.maximum(MOUTH_LIGHT * canvas.mouth, LIP_LIGHT * canvas.lips))
     # Shade in skin is warm: red light travels further through it.
     return colour * np.stack([light**0.75, light**1.05, light**1.10], -1)

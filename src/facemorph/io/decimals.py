@@ -1,0 +1,189 @@
+"""Numbers out of text, many at once: eight digits a step, in whole arrays.
+
+A token (a run of characters between blanks) lies at bytes[starts[i]:ends[i]]. The eight bytes before
+any place are one 64-bit word, so eight decimal digits are checked and added up in a handful of array
+operations (the word holds the first digit in its lowest byte; pairs, then fours, then eights are
+joined: D. Lemire, "Quickly parsing eight digits", 2018). Two words make an ordinary coordinate:
+what stands before its point and what stands behind it. value = mantissa / 10^decimals is then
+correctly rounded, because both are exact float64 numbers (W. D. Clinger, "How to read floating point
+numbers accurately", 1990, its fast case). Every other token (an exponent, too many digits, or no
+number at all) goes to Python's own float() or int().
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from facemorph.core.arrays import Float64, Int64, UInt8
+
+PAD = 16
+"""Blank bytes before and after a text, so that eight bytes before any place can be loaded."""
+
+_UInt64 = NDArray[np.uint64]
+_ZEROS = np.uint64(0x3030303030303030)
+_OVER_NINE = np.uint64(0x7676767676767676)
+_HIGH_BITS = np.uint64(0x8080808080808080)
+_KEEP_LAST = np.array([(1 << 64) - (1 << (8 * (8 - n))) for n in range(9)], np.uint64)
+_POWERS = 10 ** np.arange(19, dtype=np.int64)
+_FLOAT_POWERS = 10.0 ** np.arange(19)
+_EXACT = 1 << 53
+_LONGEST_NUMBER = 1_000
+_NUMBER_BYTES = b"0123456789+-.eE"
+_INTEGER = re.compile(rb"[+-]?[0-9]+")
+
+
+class PaddedText:
+    """Bytes with `PAD` newlines around them: `bytes` (n,) uint8, and `words`, the 8 bytes from each place."""
+
+    def __init__(self, padded: bytes) -> None:
+        self.data = padded
+        self.bytes: UInt8 = np.frombuffer(padded, np.uint8)
+        self.words: _UInt64 = np.ndarray((len(padded) - 7,), "<u8", buffer=padded, strides=(1,))
+
+    def token(self, start: int, end: int) -> bytes:
+        """The bytes of one token."""
+        return self.data[start:end]
+
+
+def floats(text: PaddedText, starts: Int64, ends: Int64, dots: Int64) -> tuple[Float64, Int64]:
+    """Tokens (N,) as float64 (N,), each as Python's float() reads it, and the indices that are no numbers.
+
+    `dots` holds every "." between the first start and the last end, ascending. Signs, missing digits on
+    one side of the point, and exponents are allowed; words as "nan", and underscores, are not.
+    """
+    if not len(starts):
+        return np.zeros(0), np.zeros(0, np.int64)
+    dot = _first_between(dots, starts, ends)
+    first = text.bytes[starts]
+    negative = first == ord("-")
+    whole_length = dot - starts
+    whole_length -= negative
+    decimals = ends - dot
+    decimals -= 1
+    values = _uniform_floats(text, ends, dot, whole_length, decimals)
+    rest = np.zeros(0, np.int64)
+    if values is None:
+        whole_length -= first == ord("+")
+        values, rest = _mixed_floats(text, ends, dot, whole_length, np.maximum(decimals, 0))
+    np.negative(values, out=values, where=negative)
+    return values, _read_singly(text, starts, ends, values, rest)
+
+
+def _uniform_floats(
+    text: PaddedText, ends: Int64, dot: Int64, whole_length: Int64, decimals: Int64
+) -> Float64 | None:
+    """The sizes of numbers that all have the same 1 to 8 decimals; None where any is not of that form."""
+    count = int(decimals[0])
+    longest = int(whole_length.max())
+    if not (1 <= count <= 8 and longest <= 8 and count + longest <= 15 and bool((decimals == count).all())):
+        return None
+    if int(whole_length.min()) < 0:
+        return None
+    whole, whole_wrong = _digits(text, dot, whole_length)
+    fraction, fraction_wrong = _digits(text, ends, count)
+    whole_wrong |= fraction_wrong
+    if whole_wrong.any():
+        return None
+    whole *= _POWERS[count]
+    whole += fraction
+    sizes: Float64 = whole / _FLOAT_POWERS[count]
+    return sizes
+
+
+def _mixed_floats(
+    text: PaddedText, ends: Int64, dot: Int64, whole_length: Int64, decimals: Int64
+) -> tuple[Float64, Int64]:
+    """The sizes of numbers of any form, and the indices of those that must be read singly."""
+    digits = whole_length + decimals
+    fits = (whole_length >= 0) & (whole_length <= 8) & (decimals <= 16) & (digits > 0) & (digits <= 18)
+    decimals = np.where(fits, decimals, 0)
+    whole, wrong = _digits(text, dot, np.where(fits, whole_length, 0))
+    mantissa, fraction_wrong = _digits(text, ends, np.minimum(decimals, 8))
+    wrong |= fraction_wrong
+    long = np.flatnonzero(decimals > 8)
+    if len(long):
+        front, front_wrong = _digits(text, ends[long] - 8, decimals[long] - 8)
+        mantissa[long] += front * _POWERS[8]
+        wrong[long] |= front_wrong
+    mantissa += whole * _POWERS[decimals]
+    fits &= (wrong == 0) & (mantissa <= _EXACT)
+    return mantissa / _FLOAT_POWERS[decimals], np.flatnonzero(~fits)
+
+
+def integers(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Int64, Int64]:
+    """Tokens (N,) as int64 (N,), and the indices that are no whole numbers.
+
+    What does not fit 62 bits comes out as the largest that does: no count in a file reaches it.
+    """
+    length = ends - starts
+    first = text.bytes[starts]
+    # Digits are the bytes from "0" on; signs lie below them.
+    if len(starts) and int(first.min()) >= ord("0") and int(length.max()) <= 8 and int(length.min()) > 0:
+        values, wrong = _digits(text, ends, length)
+        if not wrong.any():
+            return values, np.zeros(0, np.int64)
+    negative = first == ord("-")
+    length -= negative | (first == ord("+"))
+    fits = (length > 0) & (length <= 8)
+    values, wrong = _digits(text, ends, np.where(fits, length, 0))
+    fits &= wrong == 0
+    np.negative(values, out=values, where=negative)
+    bad = []
+    for i in np.flatnonzero(~fits):
+        token = text.token(starts[i], ends[i])
+        if _INTEGER.fullmatch(token) is None:
+            bad.append(i)
+            continue
+        digits = token.lstrip(b"+-").lstrip(b"0") or b"0"
+        size = int(digits) if len(digits) <= 18 else (1 << 62)
+        values[i] = -size if negative[i] else size
+    return values, np.array(bad, np.int64)
+
+
+def _first_between(places: Int64, starts: Int64, ends: Int64) -> Int64:
+    """The first of `places` inside each token, or the token's end where there is none; (N,)."""
+    if len(places) == len(starts) and bool(((places >= starts) & (places < ends)).all()):
+        return places
+    if not len(places):
+        return ends
+    nearest = np.searchsorted(places, starts)
+    found = places[np.minimum(nearest, len(places) - 1)]
+    return np.where((found >= starts) & (found < ends), found, ends)
+
+
+def _digits(text: PaddedText, ends: Int64, lengths: Int64 | int) -> tuple[Int64, _UInt64]:
+    """The numbers in the `lengths` (0 to 8) digits before `ends`; and not 0 where there was a non-digit."""
+    word = text.words[ends - 8]
+    word ^= _ZEROS
+    word &= _KEEP_LAST[lengths]
+    wrong = word + _OVER_NINE
+    wrong |= word
+    wrong &= _HIGH_BITS
+    word *= np.uint64(10 * 256 + 1)
+    word >>= np.uint64(8)
+    word &= np.uint64(0x00FF00FF00FF00FF)
+    word *= np.uint64(100 * 65_536 + 1)
+    word >>= np.uint64(16)
+    word &= np.uint64(0x0000FFFF0000FFFF)
+    word *= np.uint64(10_000 * (1 << 32) + 1)
+    word >>= np.uint64(32)
+    return word.view(np.int64), wrong
+
+
+def _read_singly(text: PaddedText, starts: Int64, ends: Int64, values: Float64, which: Int64) -> Int64:
+    """Fill `values` at `which` by Python's float(); returns those that are no numbers."""
+    bad = []
+    for i in which:
+        token = text.token(starts[i], ends[i])
+        # float() also takes "nan", "inf" and "1_000"; none of them has only these bytes.
+        if len(token) > _LONGEST_NUMBER or token.translate(None, _NUMBER_BYTES):
+            bad.append(i)
+            continue
+        try:
+            values[i] = float(token)
+        except ValueError:
+            bad.append(i)
+    return np.array(bad, np.int64)

@@ -1,0 +1,173 @@
+"""The text of an OBJ file made even, and cut into lines and tokens in whole arrays.
+
+Making even changes no offset: a BOM, carriage returns and continued lines ("\\" at the end) become
+blanks of the same length, so a place in the text is a place in the file, and its line can be told.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+
+import numpy as np
+
+from facemorph.core.arrays import Int64, UInt8
+from facemorph.errors import MeshFileError
+from facemorph.io.decimals import PAD, PaddedText
+from facemorph.io.limits import LINE_BYTES, plain_size
+
+_CHUNK_BYTES = 1 << 19
+_PADDING = b"\n" * PAD
+_BOM = b"\xef\xbb\xbf"
+_LONE_RETURN = re.compile(rb"\r(?!\n)")
+_COMMENT_OR_CONTINUED = re.compile(rb"(?<!\S)#[^\n]*|\\[ \t]*(?:\n|\Z)")
+
+
+class Kind(IntEnum):
+    """What a line says, by its first word."""
+
+    OTHER = 0
+    VERTEX = 1
+    UV = 2
+    NORMAL = 3
+    FACE = 4
+    GROUP = 5
+    OBJECT = 6
+    MATERIAL = 7
+    LIBRARY = 8
+
+
+_NAMED = {b"g": Kind.GROUP, b"o": Kind.OBJECT, b"usemtl": Kind.MATERIAL, b"mtllib": Kind.LIBRARY}
+
+
+class ObjText(PaddedText):
+    """An OBJ file's text, evened and padded, that knows the line of every place."""
+
+    def __init__(self, path: Path, data: bytes) -> None:
+        """Raises `MeshFileError` for what is no text."""
+        if b"\0" in data:
+            hint = "Save it as UTF-8." if data[:2] in (b"\xff\xfe", b"\xfe\xff") else ""
+            raise MeshFileError(path, "is not a text file, as an OBJ must be", hint=hint)
+        self.path = path
+        self._line_ends = _with_line_ends(data)
+        super().__init__(b"".join((_PADDING, _joined_lines(self._line_ends), _PADDING)))
+        self.begin, self.end = PAD, PAD + len(data)
+
+    def line_at(self, place: int) -> int:
+        """The line (1-based) of the file on which `place` lies."""
+        return self._line_ends.count(b"\n", 0, max(place - PAD, 0)) + 1
+
+    def chunks(self) -> Iterator[tuple[int, int]]:
+        """Ranges of whole lines that cover the text. Raises `MeshFileError` on an endless line."""
+        begin = self.begin
+        while begin < self.end:
+            end = min(begin + _CHUNK_BYTES, self.end)
+            if end < self.end:
+                end = self.data.rfind(b"\n", begin, end) + 1 or self._end_of_line(begin)
+            yield begin, end
+            begin = end
+
+    def _end_of_line(self, begin: int) -> int:
+        end = self.data.find(b"\n", begin, begin + LINE_BYTES) + 1
+        if not end:
+            problem = f"the line is longer than {plain_size(LINE_BYTES)}, the most that is read"
+            raise MeshFileError(self.path, problem, line=self.line_at(begin))
+        return end
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """The lines with anything on them in one range of a text, L of them, and their N tokens.
+
+    kind            (L,) `Kind`
+    first, count    (L,) the line's first token, and how many it has before any "# comment"
+    starts, ends    (N,) where each token lies in the text
+    """
+
+    kind: UInt8
+    first: Int64
+    count: Int64
+    starts: Int64
+    ends: Int64
+
+    def of(self, kind: Kind) -> Int64:
+        """Indices of the lines of one kind."""
+        return np.flatnonzero(self.kind == kind)
+
+
+def lines_between(text: ObjText, begin: int, end: int) -> Lines:
+    """The lines of a range that begins and ends at line ends."""
+    # A last line without an end is ended by the padding.
+    window = text.bytes[begin - 1 : end + (end == text.end)]
+    blank = window <= ord(" ")
+    edges = np.flatnonzero(blank[1:] != blank[:-1])
+    starts, ends = edges[0::2] + begin, edges[1::2] + begin
+    line_starts = np.flatnonzero(window[:-1] == ord("\n")) + begin
+    first = np.searchsorted(starts, line_starts)
+    count = np.diff(first, append=len(starts))
+    filled = count > 0
+    first, count = first[filled], count[filled]
+    kind = _kinds(text, starts[first], ends[first])
+    return Lines(kind, first, _before_comment(text, starts, first, count), starts, ends)
+
+
+def tokens_of(lines: Lines, chosen: Int64) -> tuple[Int64, Int64]:
+    """Where all tokens but the first of the chosen lines begin and end, in order."""
+    if not len(chosen):
+        return lines.starts[:0], lines.ends[:0]
+    counts = lines.count[chosen]
+    first, last, width = int(lines.first[chosen[0]]), int(lines.first[chosen[-1]]), int(counts[0])
+    if last - first == width * (len(chosen) - 1) and bool((counts == width).all()):
+        # Lines of one form without a gap, as nearly all are: a table whose first column is left out.
+        block = slice(first, last + width)
+        starts, ends = lines.starts[block].reshape(-1, width), lines.ends[block].reshape(-1, width)
+        return starts[:, 1:].ravel(), ends[:, 1:].ravel()
+    counts = counts - 1
+    before = np.cumsum(counts) - counts
+    tokens = np.repeat(lines.first[chosen] + 1 - before, counts) + np.arange(int(counts.sum()))
+    return lines.starts[tokens], lines.ends[tokens]
+
+
+def _kinds(text: ObjText, starts: Int64, ends: Int64) -> UInt8:
+    """(L,) `Kind` of each line from its first token."""
+    length = ends - starts
+    head, second = text.bytes[starts], text.bytes[starts + 1]
+    kind = np.zeros(len(starts), np.uint8)
+    kind[(length == 1) & (head == ord("v"))] = Kind.VERTEX
+    kind[(length == 1) & (head == ord("f"))] = Kind.FACE
+    kind[(length == 2) & (head == ord("v")) & (second == ord("t"))] = Kind.UV
+    kind[(length == 2) & (head == ord("v")) & (second == ord("n"))] = Kind.NORMAL
+    names = (head == ord("g")) | (head == ord("o")) | (head == ord("u")) | (head == ord("m"))
+    for i in np.flatnonzero(names):
+        kind[i] = _NAMED.get(text.token(starts[i], ends[i]), Kind.OTHER)
+    return kind
+
+
+def _before_comment(text: ObjText, starts: Int64, first: Int64, count: Int64) -> Int64:
+    """Each line's tokens before one that begins with "#". Names are read apart."""
+    comments = np.flatnonzero(text.bytes[starts] == ord("#"))
+    if len(comments):
+        line = np.searchsorted(first, comments, side="right") - 1
+        np.minimum.at(count, line, comments - first[line])
+    return count
+
+
+def _with_line_ends(data: bytes) -> bytes:
+    """The same length, with lines that end in "\\n" alone and no BOM."""
+    if data.startswith(_BOM):
+        data = b"   " + data[len(_BOM) :]
+    if b"\r" in data:
+        data = _LONE_RETURN.sub(b"\n", data.replace(b"\r\n", b" \n"))
+    return data
+
+
+def _joined_lines(data: bytes) -> bytes:
+    """The same length, with continued lines joined; a comment that ends in "\\" (a path) goes on nowhere."""
+    if b"\\" not in data:
+        return data
+    return _COMMENT_OR_CONTINUED.sub(
+        lambda found: b" " * len(found[0]) if found[0][:1] == b"\\" else found[0], data
+    )

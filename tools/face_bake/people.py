@@ -10,7 +10,7 @@ from .phenotype import Phenotype
 # MakeHuman's young adults part their lips and lower their brows; this closes and lifts them.
 REST = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.32, "mh:eyebrows-up": 0.10}
 # The men's inner brows already sit high and their lids low: lifting those more would look worried.
-REST_OF_MEN = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.06, "mh:eyebrows-up": 0.16,
+REST_OF_MEN = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.12, "mh:eyebrows-up": 0.16,
                "mh:eyebrows-extern-up": 0.18, "mh:eye-opened-up": 0.20}
 
 

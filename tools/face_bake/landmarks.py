@@ -14,8 +14,9 @@ from .landmark_names import EXTRAS, IBUG_NAMES, MPEG4_OF_IBUG
 from .probe import SkinProbe
 from .seal import walk_loop
 
-# Rings of edges around the mouth's rim: where the upper and lower lip meet, and where their red ends.
-UPPER_CONTACT_RING, LOWER_CONTACT_RING, LIP_EDGE_RING = 2, 3, 7
+# Rings of edges around the mouth's rim, which lies behind the lips: where the closed lips meet as seen
+# from the front (the six people's mean gap is least there), and where their red ends.
+CONTACT_RING, LIP_EDGE_RING = 3, 7
 # From the ear (degrees above the horizontal, seen from the front) down to the chin.
 JAW_CENTRE, JAW_TOP = np.array([0.0, 6.95]), 25.0
 
@@ -107,16 +108,15 @@ def _lips(head: Head) -> dict[int, int]:
     cage = head.cage
     rim = np.intersect1d(cage.faces[cage.island == HEAD], cage.faces[cage.island == MOUTH])
     rings = _rings(head, rim, LIP_EDGE_RING)
-    outer = _Loop(head, rings[LIP_EDGE_RING])
-    upper, lower = _Loop(head, rings[UPPER_CONTACT_RING]), _Loop(head, rings[LOWER_CONTACT_RING])
-    found = {48: outer.right, 54: outer.left, 60: upper.right, 64: upper.left}
+    outer, inner = _Loop(head, rings[LIP_EDGE_RING]), _Loop(head, rings[CONTACT_RING])
+    found = {48: outer.right, 54: outer.left, 60: inner.right, 64: inner.left}
     for k, t in enumerate((0.19, 0.38, 0.5, 0.62, 0.81)):
         found[49 + k] = outer.at(t, True)
     for k, t in enumerate((0.78, 0.64, 0.5, 0.36, 0.22)):
         found[55 + k] = outer.at(t, False)
     for k, t in enumerate((0.27, 0.5, 0.73)):
-        found[61 + k] = upper.at(t, True)
-        found[67 - k] = lower.at(t, False)
+        found[61 + k] = inner.at(t, True)
+        found[67 - k] = inner.at(t, False)
     return found
 
 

@@ -1,12 +1,27 @@
 #version 330 core
 // Every pass draws the same morphed buffer: a frame costs what a static mesh costs.
 
+#ifdef COLOURED
+#include "lib/colour.glsl"
+#endif
+#ifdef LIT
+#include "lib/light.glsl"
+#endif
+
 uniform mat4 clip_from_model;
+uniform float side;                    // 1 for the outside, -1 where a surface is seen from within
 
 in vec3 position;
 in vec3 normal;
-out vec3 surface_position;
 out vec3 surface_normal;
+
+#ifdef LIT
+// Fine meshes are lit a vertex, which nobody can tell from a pixel; coarse ones a pixel.
+#ifdef LIT_BY_VERTEX
+out vec3 surface_light;
+#endif
+out vec3 surface_view;
+#endif
 
 #ifdef TEXTURED
 in vec2 uv;
@@ -14,7 +29,6 @@ out vec2 surface_uv;
 #endif
 
 #ifdef COLOURED
-#include "lib/colour.glsl"
 in vec3 colour;
 out vec3 surface_colour;
 #endif
@@ -32,8 +46,13 @@ out float surface_kept;
 invariant gl_Position;
 
 void main() {
-    surface_position = position;
-    surface_normal = normal;
+    surface_normal = normal * side;
+#ifdef LIT
+    surface_view = towards_camera(position);
+#ifdef LIT_BY_VERTEX
+    surface_light = diffuse_light(surface_normal, surface_view);
+#endif
+#endif
 #ifdef TEXTURED
     surface_uv = uv;
 #endif

@@ -3,5 +3,5 @@
 #include "lib/surface.glsl"
 
 void main() {
-    show(facing_normal() * 0.5 + 0.5, 1.0);
+    show(normalize(surface_normal) * 0.5 + 0.5, 1.0);
 }

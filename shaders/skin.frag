@@ -1,9 +1,17 @@
 #version 330 core
 // Textured skin, eyes, teeth and the rest; clay is the same light on one grey.
 #include "lib/surface.glsl"
+#include "lib/colour.glsl"
+#include "lib/light.glsl"
 
 uniform vec3 albedo;
 uniform float opacity;
+
+in vec3 surface_view;
+
+#ifdef LIT_BY_VERTEX
+in vec3 surface_light;
+#endif
 
 #ifdef TEXTURED
 uniform sampler2D albedo_texture;
@@ -30,5 +38,12 @@ void main() {
 #ifdef COLOURED
     surface *= surface_colour;
 #endif
-    show(displayed(lit(surface, facing_normal(), towards_camera())), cover);
+    vec3 n = normalize(surface_normal);
+#ifdef LIT_BY_VERTEX
+    vec3 light = surface_light;
+#else
+    vec3 light = diffuse_light(n, normalize(surface_view));
+#endif
+    vec3 half_way = normalize(shine_direction + surface_view);
+    show(displayed(surface * light + highlight(n, half_way)), cover);
 }

@@ -18,12 +18,16 @@ LAG_DEG = 18.0
 
 @dataclass(frozen=True)
 class Lights:
-    """Intensities (linear RGB) of the lights, and azimuth and elevation in degrees from the camera."""
+    """Intensities (linear RGB) of the lights, and azimuth and elevation in degrees from the camera.
+
+    `catch_from` is where eyes see the key: lower than it is, or the upper lid would hide the highlight.
+    """
 
     key: Light = (1.62, 1.52, 1.40)
     key_from: tuple[float, float] = (-42.0, 36.0)
     fill: Light = (0.30, 0.34, 0.40)
     fill_from: tuple[float, float] = (48.0, 6.0)
+    catch_from: tuple[float, float] = (-27.0, 15.0)
     rim: Light = (2.3, 2.4, 2.6)
     rim_from: tuple[float, float] = (150.0, 35.0)
     sky: Light = (0.26, 0.28, 0.32)
@@ -34,6 +38,7 @@ class Lights:
         return {
             "key_direction": _direction(camera, *self.key_from),
             "key_light": self.key,
+            "catch_direction": _direction(camera, *self.catch_from),
             "fill_direction": _direction(camera, *self.fill_from),
             "fill_light": self.fill,
             "rim_direction": _direction(camera, *self.rim_from),

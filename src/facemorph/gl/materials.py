@@ -17,6 +17,7 @@ class Finish:
     gloss      strength of the highlight, `sharpness` its exponent
     sheen      how strongly the rim light shows at grazing angles
     recess     how much light the surroundings keep away: lids from an eye, the mouth from teeth
+    catches    whether its highlight is an eye's catchlight
     shade      factor on the colour, for what lies inside the mouth
     """
 
@@ -26,10 +27,13 @@ class Finish:
     sheen: float
     recess: float = 0.0
     shade: float = 1.0
+    catches: bool = False
 
 
 SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=2.0)
-EYE = Finish(wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.62, shade=0.86)
+EYE = Finish(
+    wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.75, shade=0.9, catches=True
+)
 TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.20, sharpness=60.0, sheen=0.0, shade=0.74)
 TONGUE = Finish(wrap=(0.40, 0.20, 0.17), gloss=0.10, sharpness=36.0, sheen=0.0, shade=0.7)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)

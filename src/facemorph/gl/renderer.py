@@ -104,7 +104,7 @@ class Renderer:
     @property
     def problems(self) -> tuple[str, ...]:
         """What of the loaded face could not be shown (a texture that cannot be read), a line each."""
-        return tuple(self._painter.problems)
+        return tuple(self._painter.textures.problems)
 
     @property
     def texture(self) -> moderngl.Texture:
@@ -200,7 +200,7 @@ class Renderer:
         return replace(look, heat_max=end)
 
     def _unload(self) -> None:
-        self._painter.forget()
+        self._painter.textures.forget()
         for held in (self._morph, self._surface):
             if held is not None:
                 held.release()

@@ -6,6 +6,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from facemorph.core.mesh import Material
 from facemorph.errors import GraphicsError
 
 if TYPE_CHECKING:
@@ -14,7 +15,43 @@ if TYPE_CHECKING:
 
 # Beyond this side a texture is halved while it is read: it bounds memory at 4096 x 4096 x 4 bytes.
 LARGEST_SIDE = 4096
+ANISOTROPY = 8.0
 LARGEST_PIXELS = 16384 * 16384
+
+
+class Textures:
+    """The textures of the face that is loaded, each read when it is first drawn.
+
+    `problems` tells which could not be shown, a line each; their parts keep their plain colour.
+    """
+
+    def __init__(self, ctx: moderngl.Context, *, software: bool) -> None:
+        self._ctx = ctx
+        # Several times the texture reads: too dear where they are made on the CPU.
+        self._anisotropy = 1.0 if software else min(ANISOTROPY, float(ctx.max_anisotropy))
+        self._read: dict[Path, moderngl.Texture | None] = {}
+        self.problems: list[str] = []
+
+    def of(self, material: Material) -> moderngl.Texture | None:
+        """The material's texture; None where it has none that can be shown."""
+        path = material.texture
+        if path is None:
+            return None
+        if path not in self._read:
+            try:
+                self._read[path] = load_texture(self._ctx, path, self._anisotropy)
+            except GraphicsError as error:
+                self._read[path] = None
+                self.problems.append(str(error))
+        return self._read[path]
+
+    def forget(self) -> None:
+        """Give the textures back to the context."""
+        for texture in self._read.values():
+            if texture is not None:
+                texture.release()
+        self._read.clear()
+        self.problems.clear()
 
 
 def load_texture(ctx: moderngl.Context, path: Path, anisotropy: float) -> moderngl.Texture:

@@ -1,8 +1,22 @@
 """Files: meshes and faces in, meshes and pictures out. One format a module."""
 
+from facemorph.io.check import check_folder
+from facemorph.io.face_toml import read_face_info
 from facemorph.io.load import load_rig
 from facemorph.io.obj_write import write_obj
 from facemorph.io.png import write_png
 from facemorph.io.read import read_mesh
+from facemorph.io.repair import repair_folder
+from facemorph.io.report import Finding, Report
 
-__all__ = ["load_rig", "read_mesh", "write_obj", "write_png"]
+__all__ = [
+    "Finding",
+    "Report",
+    "check_folder",
+    "load_rig",
+    "read_face_info",
+    "read_mesh",
+    "repair_folder",
+    "write_obj",
+    "write_png",
+]

@@ -5,17 +5,27 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
 from facemorph.core.arrays import Float32
-from facemorph.core.correspondence import difference
+from facemorph.core.correspondence import Difference, difference
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.errors import CorrespondenceError, FaceFolderError
 from facemorph.io.limits import DELTA_BYTES, SHAPES, plain_size, read_bytes
 from facemorph.io.obj_read import parse_obj, parse_positions, with_materials
 from facemorph.io.read import read_mesh
+
+HINTS: Mapping[str, str] = MappingProxyType(
+    {
+        "order": "`facemorph check FOLDER --repair OUT` writes copies in the neutral's order.",
+        "vertices": "Export every shape from the same mesh, without merging or splitting vertices.",
+        "polygons": "Export every shape from the same mesh, without triangulating or rebuilding it.",
+    }
+)
+"""What to do about a shape that does not correspond, by the cause."""
 
 _WORDS_BEFORE_FACES = (b"v ", b"vt", b"vn", b"vp")
 
@@ -70,18 +80,13 @@ def _shape_positions(path: Path, name: str, neutral: Mesh, faces: bytes) -> Floa
         mesh = parse_obj(path, data).mesh
     unlike = difference(neutral, mesh)
     if unlike is not None:
-        raise not_corresponding(name, path, unlike.cause, unlike.problem)
+        raise _not_corresponding(name, path, unlike)
     return mesh.positions
 
 
-def not_corresponding(name: str, path: Path, cause: str, problem: str) -> CorrespondenceError:
-    """The error for a shape that does not fit, with what to do."""
-    hints = {
-        "order": f"`facemorph check {path.parent} --repair OUT` writes copies in the neutral's order.",
-        "vertices": "Export every shape from the same mesh, without merging or splitting vertices.",
-        "polygons": "Export every shape from the same mesh, without triangulating or rebuilding it.",
-    }
-    return CorrespondenceError(f"{name} ({path})", problem, cause=cause, hint=hints[cause])
+def _not_corresponding(name: str, path: Path, unlike: Difference) -> CorrespondenceError:
+    hint = HINTS[unlike.cause].replace("FOLDER", str(path.parent))
+    return CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
 
 
 def face_block(data: bytes) -> bytes:

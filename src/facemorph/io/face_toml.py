@@ -30,22 +30,24 @@ from facemorph.io.inside import inside
 from facemorph.io.limits import NAME_BYTES, SHAPES, TOML_BYTES, read_bytes, shortened
 from facemorph.io.shapes_npz import read_shapes
 
+FACE_TOML = "face.toml"
 _LANDMARKS = 10_000
 _T = TypeVar("_T")
 
 
 def load_described(folder: Path, progress: Progress, cache: bool) -> Rig:
     """The face of a folder with a `face.toml`. Raises `FaceFolderError` and what reading meshes raises."""
-    table = _Table(folder / "face.toml", _parsed(folder / "face.toml"))
-    neutral = _file(folder, table, "neutral", "neutral.obj")
-    shapes, files = _expressions(folder, table)
+    table = _table(folder)
+    neutral, files, npz = described_files(folder)
+    shapes = _expressions(table)
     found = read_set(neutral, files, progress)
+    count = found.neutral.vertex_count
     more = None
-    if table.has("shapes"):
-        progress(0.95, "reading shapes")
-        more = read_shapes(_file(folder, table, "shapes", ""), found.neutral.vertex_count)
-        check_size(len(shapes) + len(more.shapes), found.neutral.vertex_count)
-    info = _info(folder, table, found.neutral.vertex_count)
+    if npz is not None:
+        progress(0.95, f"reading {npz.name}")
+        more = read_shapes(npz, count)
+        check_size(len(shapes) + len(more.shapes), count)
+    info = _info(folder, table, count)
     try:
         if more is None:
             return Rig(found.neutral, shapes, found.deltas, info)
@@ -53,6 +55,23 @@ def load_described(folder: Path, progress: Progress, cache: bool) -> Rig:
         return Rig(found.neutral, (*shapes, *more.shapes), deltas, info, more.regions)
     except MeshDataError as error:
         raise FaceFolderError(f"{folder}: {error}") from error
+
+
+def described_files(folder: Path) -> tuple[Path, dict[str, Path], Path | None]:
+    """The neutral, the shapes by name, and the `shapes.npz` that a folder's `face.toml` names.
+
+    Raises `FaceFolderError`.
+    """
+    table = _table(folder)
+    neutral = _file(folder, table, "neutral", "neutral.obj")
+    shapes = {entry.text("name"): _file(folder, entry, "file", None) for entry in _expression_entries(table)}
+    return neutral, shapes, _file(folder, table, "shapes", None) if table.has("shapes") else None
+
+
+def read_face_info(folder: Path | str) -> FaceInfo:
+    """What a folder's `face.toml` says of the face, its meshes unread. Raises `FaceFolderError`."""
+    folder = Path(folder)
+    return _info(folder, _table(folder), None)
 
 
 class _Table:
@@ -97,6 +116,11 @@ class _Table:
         return value
 
 
+def _table(folder: Path) -> _Table:
+    path = folder / FACE_TOML
+    return _Table(path, _parsed(path))
+
+
 def _parsed(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(read_bytes(path, TOML_BYTES).decode("utf-8"))
@@ -116,21 +140,25 @@ def _file(folder: Path, table: _Table, key: str, otherwise: str | None) -> Path:
     return found
 
 
-def _expressions(folder: Path, table: _Table) -> tuple[tuple[Shape, ...], dict[str, Path]]:
-    shapes: list[Shape] = []
-    files: dict[str, Path] = {}
-    for entry in table.tables("expressions", SHAPES):
-        name = entry.text("name")
-        if name == NEUTRAL:
-            continue
-        if name in files or not name.strip():
-            raise FaceFolderError(f"{table.path}: two expressions are called {name!r}.")
-        files[name] = _file(folder, entry, "file", None)
-        shapes.append(Shape(name, entry.text("label", plain_label(name))))
-    return tuple(shapes), files
+def _expression_entries(table: _Table) -> list[_Table]:
+    """The expressions but the neutral one, each with a name of its own."""
+    entries = [entry for entry in table.tables("expressions", SHAPES) if entry.text("name") != NEUTRAL]
+    names = [entry.text("name") for entry in entries]
+    for name in names:
+        if names.count(name) > 1 or not name.strip():
+            raise FaceFolderError(
+                f"{table.path}: every expression needs a name of its own, not {name!r} again."
+            )
+    return entries
 
 
-def _info(folder: Path, table: _Table, vertex_count: int) -> FaceInfo:
+def _expressions(table: _Table) -> tuple[Shape, ...]:
+    entries = _expression_entries(table)
+    names = [entry.text("name") for entry in entries]
+    return tuple(Shape(n, e.text("label", plain_label(n))) for n, e in zip(names, entries, strict=True))
+
+
+def _info(folder: Path, table: _Table, vertex_count: int | None) -> FaceInfo:
     info = FaceInfo(table.text("name", folder.resolve().name or "face"))
     landmarks = tuple(_landmark(entry, vertex_count) for entry in table.tables("landmarks", _LANDMARKS))
     return replace(
@@ -143,12 +171,12 @@ def _info(folder: Path, table: _Table, vertex_count: int) -> FaceInfo:
     )
 
 
-def _landmark(entry: _Table, vertex_count: int) -> Landmark:
+def _landmark(entry: _Table, vertex_count: int | None) -> Landmark:
     vertex = entry.number("vertex")
-    if not 0 <= vertex < vertex_count:
+    if vertex < 0 or (vertex_count is not None and vertex >= vertex_count):
         raise FaceFolderError(
             f"{entry.path}: the landmark {shortened(entry.text('name'))!r} is vertex {vertex:,} "
-            f"of {vertex_count:,}."
+            f"of {vertex_count or 0:,}."
         )
     mpeg4 = entry.text("mpeg4") if entry.has("mpeg4") else None
     return Landmark(entry.text("name"), vertex, mpeg4, entry.number("ibug") if entry.has("ibug") else None)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from facemorph.core.pose import NEUTRAL
@@ -11,7 +12,7 @@ from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import FaceInfo, Rig, Shape, plain_label
 from facemorph.errors import FaceFolderError, UnknownNameError
 from facemorph.io.face_set import read_set
-from facemorph.io.face_toml import load_described
+from facemorph.io.face_toml import FACE_TOML, described_files, load_described
 from facemorph.io.limits import reason
 from facemorph.io.names import composed, listed, natural_key
 from facemorph.io.read import is_mesh
@@ -41,17 +42,35 @@ def load_rig(
     path = _place_of(source)
     if not path.is_dir():
         return _from_files([path], progress, cache)
-    if (path / "face.toml").is_file():
+    if (path / FACE_TOML).is_file():
         return load_described(path, progress, cache)
-    neutral, shapes = shape_files(path)
-    return _from_set(path.resolve().name or "face", neutral, shapes, progress, cache)
+    files = face_files(path)
+    return _from_set(path.resolve().name or "face", files.neutral, files.shapes, progress, cache)
 
 
-def shape_files(folder: Path) -> tuple[Path, dict[str, Path]]:
-    """The neutral of a plain folder, and its shapes by name: known expressions first, then as people count.
+@dataclass(frozen=True)
+class FaceFiles:
+    """The files of a face: its neutral, its shapes by name in order, and perhaps a `shapes.npz`."""
 
-    Raises `FaceFolderError`.
+    neutral: Path
+    shapes: Mapping[str, Path]
+    more: Path | None = None
+
+
+def face_files(folder: Path) -> FaceFiles:
+    """The files of a face folder, as its `face.toml` says; or of a plain one.
+
+    Shapes of a plain folder stand with the known expressions first, then as people count. Raises
+    `FaceFolderError`.
     """
+    if (folder / FACE_TOML).is_file():
+        return FaceFiles(*described_files(folder))
+    files = plain_meshes(folder)
+    return FaceFiles(*_sorted_out(files, f"{folder}", None))
+
+
+def plain_meshes(folder: Path) -> list[Path]:
+    """The meshes that lie in a folder, hidden ones apart. Raises `FaceFolderError` where there is none."""
     try:
         files = sorted(
             p for p in folder.iterdir() if is_mesh(p) and not p.name.startswith(".") and p.is_file()
@@ -60,7 +79,7 @@ def shape_files(folder: Path) -> tuple[Path, dict[str, Path]]:
         raise FaceFolderError(f"{folder} cannot be read: {reason(error)}.") from error
     if not files:
         raise FaceFolderError(f"{folder} holds no mesh. A face is neutral.obj and a mesh for each shape.")
-    return _sorted_out(files, f"{folder}", None)
+    return files
 
 
 def _place_of(source: str | Path) -> Path:
@@ -90,7 +109,7 @@ def _from_files(files: list[Path], progress: Progress, cache: bool) -> Rig:
     return _from_set(composed(neutral.stem), neutral, shapes, progress, cache)
 
 
-def _from_set(name: str, neutral: Path, shapes: dict[str, Path], progress: Progress, cache: bool) -> Rig:
+def _from_set(name: str, neutral: Path, shapes: Mapping[str, Path], progress: Progress, cache: bool) -> Rig:
     found = read_set(neutral, shapes, progress)
     return Rig(
         found.neutral, tuple(Shape(n, plain_label(n)) for n in found.names), found.deltas, FaceInfo(name)

@@ -59,12 +59,20 @@ def create_context() -> moderngl.Context:
     """
     tried: list[str] = []
     for way in _chosen_ways():
-        with _quiet_library_output():
-            try:
-                return way.make()
-            except Exception as error:  # noqa: BLE001 glcontext raises Exception itself
-                tried.append(f"{way.name} ({_first_line(error)})")
+        try:
+            return attempt(way)
+        except GraphicsError as error:
+            tried.append(str(error))
     raise GraphicsError(f"no OpenGL 3.3 context; tried {'; '.join(tried)}. {install_hint()}")
+
+
+def attempt(way: Way) -> moderngl.Context:
+    """A context made that way and no other. Raises `GraphicsError` saying why not."""
+    with _quiet_library_output():
+        try:
+            return way.make()
+        except Exception as error:  # glcontext raises Exception itself
+            raise GraphicsError(f"{way.name} ({_first_line(error)})") from error
 
 
 def wrap_window_context() -> moderngl.Context:

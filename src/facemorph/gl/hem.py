@@ -17,7 +17,7 @@ _MOST_RIM_POINTS = 400
 
 @dataclass(frozen=True, eq=False)
 class Hem:
-    """`kept` (V,) float32: how much of each vertex shows, 0 at the cut to 1; `triangles` (T,) bool: those that fade."""
+    """The cut: `kept` (V,) float32, 0 at it to 1 away from it; `triangles` (T,) bool, those that fade."""
 
     kept: Float32
     triangles: Bool

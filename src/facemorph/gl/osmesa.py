@@ -56,8 +56,12 @@ class OSMesaContext:
         return self
 
     def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+        self,
+        kind: type[BaseException] | None = None,
+        error: BaseException | None = None,
+        trace: TracebackType | None = None,
     ) -> None:
+        # moderngl leaves without saying why, hence the defaults.
         return None
 
     def release(self) -> None:

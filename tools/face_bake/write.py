@@ -9,10 +9,11 @@ from .people import Person
 
 CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
 LICENCE = "CC0-1.0"
+# Colour (linear light), shine, exponent and picture.
 MATERIALS = {
     "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"), "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
-    "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"), "tongue": ((0.60, 0.27, 0.26), 0.3, 30, None),
-    "lash": ((0.06, 0.045, 0.04), 0.0, 10, None),
+    "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"), "tongue": ((0.32, 0.06, 0.055), 0.3, 30, None),
+    "lash": ((0.005, 0.0035, 0.003), 0.0, 10, None),
 }
 
 

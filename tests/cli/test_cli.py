@@ -188,7 +188,7 @@ def test_without_a_display_the_main_job_runs_off_screen(capsys, folder, tmp_path
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=True)
     assert sorted(p.name for p in out.iterdir()) == ["neutral-to-smile.png", "neutral.png", "smile.png"]
     assert len(done.stderr.splitlines()) == 1
-    assert [line.rsplit("/", 1)[-1] for line in done.stdout.splitlines()][0] == "neutral.png"
+    assert done.stdout.splitlines()[0].endswith("neutral.png")
 
 
 def test_the_library_loads_poses_draws_and_writes(folder, tmp_path):

@@ -1,0 +1,29 @@
+"""`python -m benchmarks [reading|blending|frames|starting ...]`: measure and print tables in Markdown."""
+
+from __future__ import annotations
+
+import platform
+import sys
+
+from benchmarks import blending, frames, reading, starting
+
+GROUPS = {"reading": reading.run, "blending": blending.run, "frames": frames.run, "starting": starting.run}
+
+
+def main(names: list[str]) -> int:
+    """Run the groups named, or all."""
+    unknown = [name for name in names if name not in GROUPS]
+    if unknown:
+        print(f"no benchmark is called {unknown[0]!r}; there are: {', '.join(GROUPS)}", file=sys.stderr)
+        return 2
+    print(
+        f"Python {platform.python_version()}, {platform.machine()}; medians, facemorph beside its peers in one run.\n"
+    )
+    for name in names or GROUPS:
+        for table in GROUPS[name]():
+            print(table.text(), flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

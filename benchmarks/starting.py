@@ -1,0 +1,47 @@
+"""Cold starts: from the command to the first picture, wall time and peak memory, each in a fresh process."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+from benchmarks.harness import Table, have, median_run, python
+from facemorph.resources import builtin_face
+
+POLYSCOPE = """
+import numpy as np, trimesh, polyscope
+mesh = trimesh.load({obj!r}, process=False, maintain_order=True)
+polyscope.set_allow_headless_backends(True)
+polyscope.set_verbosity(0)
+polyscope.init()
+polyscope.register_surface_mesh("face", mesh.vertices, mesh.faces)
+polyscope.screenshot({png!r})
+"""
+PYVISTA = """
+import pyvista
+plotter = pyvista.Plotter(off_screen=True, window_size=(1280, 800))
+plotter.add_mesh(pyvista.read({obj!r}))
+plotter.screenshot({png!r})
+"""
+
+
+def run() -> list[Table]:
+    """One table: facemorph's picture of a built-in face, and peers' of its neutral alone."""
+    table = Table("Cold start to a picture on disk", ("what", "median s", "peak MB"))
+    with tempfile.TemporaryDirectory() as name:
+        png, obj = str(Path(name) / "x.png"), str(builtin_face("ada") / "neutral.obj")
+        render = [sys.executable, "-m", "facemorph", "render", "ada", "--to", "happy", "-o", png]
+        fresh = {"FACEMORPH_CACHE_DIR": str(Path(name) / "cache")}
+        commands = {
+            "facemorph render ada (all 92 shapes, textures)": render,
+            "import numpy, moderngl": python("import numpy, moderngl"),
+            "polyscope, neutral alone": python(POLYSCOPE.format(obj=obj, png=png)),
+            "pyvista, neutral alone": python(PYVISTA.format(obj=obj, png=png)),
+        }
+        for what, command in commands.items():
+            if any(peer in what and not have(peer) for peer in ("polyscope", "pyvista")):
+                continue
+            done = median_run(command, environment=fresh)
+            table.add(what, f"{done.seconds:.2f}", f"{done.peak_mb:.0f}")
+    return [table]

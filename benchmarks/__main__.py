@@ -16,9 +16,7 @@ def main(names: list[str]) -> int:
     if unknown:
         print(f"no benchmark is called {unknown[0]!r}; there are: {', '.join(GROUPS)}", file=sys.stderr)
         return 2
-    print(
-        f"Python {platform.python_version()}, {platform.machine()}; medians, facemorph beside its peers in one run.\n"
-    )
+    print(f"Medians of one run; Python {platform.python_version()} on {platform.machine()}.\n")
     for name in names or GROUPS:
         for table in GROUPS[name]():
             print(table.text(), flush=True)

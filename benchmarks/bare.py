@@ -1,4 +1,4 @@
-"""The limit: the same mesh, never morphed, drawn by a few lines of moderngl (Phong, one light), and read back."""
+"""The limit: the same mesh, never morphed, drawn by a few lines of moderngl (Phong, one light)."""
 
 from __future__ import annotations
 

@@ -37,6 +37,8 @@ def load(
     """
     from facemorph.io import load_rig
 
+    if not isinstance(source, str | Path) and len(source) == 1:
+        source = source[0]
     return load_rig(source, progress=progress, cache=cache)
 
 

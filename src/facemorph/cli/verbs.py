@@ -17,7 +17,7 @@ def view(options: argparse.Namespace) -> int:
     from facemorph.ui import run
 
     try:
-        return run(options.face or DEFAULT_FACE, options.weights)
+        return run(_source(options), options.weights)
     except DisplayError as error:
         if options.without_display is None:
             raise
@@ -28,9 +28,15 @@ def _pictures_instead(why: str, options: argparse.Namespace) -> int:
     from facemorph import api
 
     print(f"{why} Drawing pictures into {options.without_display}/ instead.", file=sys.stderr)
-    for path in api.save_expressions(api.load(options.face or DEFAULT_FACE), options.without_display):
+    for path in api.save_expressions(api.load(_source(options)), options.without_display):
         print(path)
     return 0
+
+
+def _source(options: argparse.Namespace) -> str | list[str]:
+    """What to open: the default face, one name or folder, or several files."""
+    named: list[str] = options.face
+    return named if len(named) > 1 else next(iter(named), DEFAULT_FACE)
 
 
 def faces(options: argparse.Namespace) -> int:

@@ -136,7 +136,7 @@ def test_check_tells_a_sound_folder_from_a_broken_one(capsys, folder):
         (["render", "FOLDER", "--size", "huge", "-o", "x.png"], "1280x800"),
         (["render", "FOLDER", "--shading", "toon", "-o", "x.png"], "clay"),
         (["render", "FOLDER", "--background", "red", "-o", "x.png"], "RRGGBB"),
-        (["render", "FOLDER", "-o", "no/such/folder/x.png"], "no/such/folder"),
+        (["render", "FOLDER", "-o", "neutral.obj/x.png"], "neutral.obj"),
         (["export", "FOLDER", "-o", "x.ply"], ".obj"),
         (["check", "no/such/folder"], "no/such/folder"),
         (["faces", "--loud"], "--help"),

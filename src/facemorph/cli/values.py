@@ -12,36 +12,28 @@ from facemorph.core.morph import checked_curve
 from facemorph.core.picture import Look, checked_shading
 from facemorph.core.pose import NEUTRAL, Pose, state_of
 from facemorph.core.rig import Rig
-from facemorph.errors import OptionError, PoseError, UnknownNameError
+from facemorph.errors import OptionError, PoseError
 
 
 def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
     """The pose of --from, --to, --t, --curve and --set. Names and numbers are checked."""
-    for name in (options.source, options.target or NEUTRAL):
-        if name != NEUTRAL:
-            rig.shape(name)
+    weights = weights_from(options.weights)
+    for name in {options.source, options.target or NEUTRAL} - {NEUTRAL} | weights.keys():
+        rig.shape(name)
     t = number(options.t, "--t") if options.t is not None else float(options.target is not None)
     curve = checked_curve(options.curve)
-    weights = weights_from(options.weights, rig)
     return Pose(state_of(options.source), state_of(options.target or NEUTRAL), t, curve, weights)
 
 
-def weights_from(words: Sequence[str], rig: Rig) -> dict[str, float]:
+def weights_from(words: Sequence[str]) -> dict[str, float]:
     """Weights from NAME=VALUE words; a name given twice counts with its last value."""
     weights: dict[str, float] = {}
     for word in words:
         name, equals, value = word.rpartition("=")
         if not equals or not name:
-            raise OptionError(f"--set takes NAME=VALUE, as {example_name(rig)}=0.5; not {word!r}.")
-        if name == NEUTRAL:
-            raise UnknownNameError("shape", name, rig.names)
-        weights[rig.shape(name).name] = number(value, f"--set {name}")
+            raise OptionError(f"--set takes NAME=VALUE, as jawOpen=0.5; not {word!r}.")
+        weights[name] = number(value, f"--set {name}")
     return weights
-
-
-def example_name(rig: Rig) -> str:
-    """A shape's name to show in an error."""
-    return rig.names[0] if rig.names else "smile"
 
 
 def number(text: str, option: str) -> float:

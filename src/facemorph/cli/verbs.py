@@ -14,10 +14,12 @@ DEFAULT_FACE = "ada"
 
 def view(options: argparse.Namespace) -> int:
     """Open the window; where there is no display, write pictures if a folder for them is named."""
+    from facemorph.cli.values import weights_from
     from facemorph.ui import run
 
+    weights = weights_from(options.weights)
     try:
-        return run(_source(options), options.weights)
+        return run(_source(options), weights)
     except DisplayError as error:
         if options.without_display is None:
             raise
@@ -125,8 +127,8 @@ def _wrote(path: Path) -> int:
 
 def doctor(options: argparse.Namespace) -> int:
     """What works on this machine; 1 where nothing can draw."""
-    from facemorph.cli.doctor import examination
+    from facemorph.cli.doctor import examination, in_lines
 
-    report = examination()
-    print(json.dumps(report.as_dict(), indent=2) if options.json else "\n".join(report.lines()))
-    return 0 if report.can_draw else 1
+    facts = examination()
+    print(json.dumps(facts, indent=2) if options.json else "\n".join(in_lines(facts)))
+    return 0 if facts["can_draw"] else 1

@@ -48,15 +48,15 @@ class PaddedText:
         return self.data[start:end]
 
 
-def floats(text: PaddedText, starts: Int64, ends: Int64, dots: Int64) -> tuple[Float64, Int64]:
-    """Tokens (N,) as float64 (N,), each as Python's float() reads it, and the indices that are no numbers.
+def floats(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Float64, Int64]:
+    """Tokens (N,), ascending, as float64 (N,), as Python's float() reads them; and indices of no numbers.
 
-    `dots` holds every "." between the first start and the last end, ascending. Signs, missing digits on
-    one side of the point, and exponents are allowed; words as "nan", and underscores, are not.
+    Signs, missing digits on one side of the point, and exponents are allowed; words as "nan", and
+    underscores, are not.
     """
     if not len(starts):
         return np.zeros(0), np.zeros(0, np.int64)
-    dot = _first_between(dots, starts, ends)
+    dot = _points(text, starts, ends)
     first = text.bytes[starts]
     negative = first == ord("-")
     whole_length = dot - starts
@@ -143,10 +143,16 @@ def integers(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Int64, Int64
     return values, np.array(bad, np.int64)
 
 
-def _first_between(places: Int64, starts: Int64, ends: Int64) -> Int64:
-    """The first of `places` inside each token, or the token's end where there is none; (N,)."""
-    if len(places) == len(starts) and bool(((places >= starts) & (places < ends)).all()):
-        return places
+def _points(text: PaddedText, starts: Int64, ends: Int64) -> Int64:
+    """Where the first "." of each token is, or the token's end where it has none; (N,)."""
+    low = int(starts[0])
+    decimals = int(ends[0]) - text.data.find(b".", low, int(ends[0]))
+    if 1 <= decimals <= 9:
+        # In most files every number has as many decimals as the first.
+        places = ends - decimals
+        if bool(((text.bytes[places] == ord(".")) & (places >= starts)).all()):
+            return places
+    places = np.flatnonzero(text.bytes[low : int(ends[-1])] == ord(".")) + low
     if not len(places):
         return ends
     nearest = np.searchsorted(places, starts)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import deque
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -10,12 +12,13 @@ from types import MappingProxyType
 import numpy as np
 
 from facemorph.core.arrays import Float32
-from facemorph.core.correspondence import Difference, difference
+from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.errors import CorrespondenceError, FaceFolderError
+from facemorph.io import cache
 from facemorph.io.limits import DELTA_BYTES, SHAPES, plain_size, read_bytes
-from facemorph.io.obj_read import parse_obj, parse_positions, with_materials
+from facemorph.io.obj_read import ObjFile, parse_obj, parse_positions, with_materials
 from facemorph.io.read import read_mesh
 
 HINTS: Mapping[str, str] = MappingProxyType(
@@ -27,7 +30,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
 )
 """What to do about a shape that does not correspond, by the cause."""
 
-_WORDS_BEFORE_FACES = (b"v ", b"vt", b"vn", b"vp")
+_AT_ONCE = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,16 +42,22 @@ class FaceSet:
     deltas: Float32
 
 
-def read_set(neutral_path: Path, shapes: Mapping[str, Path], progress: Progress = silent) -> FaceSet:
+def read_set(
+    neutral: Path, shapes: Mapping[str, Path], progress: Progress = silent, use_cache: bool = True
+) -> FaceSet:
     """Read a neutral and its shapes. Raises `MeshFileError`, `CorrespondenceError`, `FaceFolderError`."""
-    progress(0.0, f"reading {neutral_path.name}")
-    neutral, faces = _neutral(neutral_path)
-    check_size(len(shapes), neutral.vertex_count)
-    deltas = np.empty((len(shapes), neutral.vertex_count, 3), np.float32)
-    for k, (name, path) in enumerate(shapes.items()):
-        progress((k + 1) / (len(shapes) + 1), f"reading {path.name}")
-        np.subtract(_shape_positions(path, name, neutral, faces), neutral.positions, out=deltas[k])
-    return FaceSet(neutral, tuple(shapes), deltas)
+    progress(0.0, f"reading {neutral.name}")
+    paths = [neutral, *shapes.values()]
+    before = _contents(paths) if use_cache else []
+    key = cache.key_of([content.digest for content in before]) if before else ""
+    kept = cache.load(key, len(shapes)) if key else None
+    if kept is None:
+        file, deltas = _parsed(neutral, shapes, progress)
+        if key and [content.stamp for content in before] == [_stamp(path) for path in paths]:
+            cache.store(key, file, deltas)
+    else:
+        file, deltas = kept
+    return FaceSet(with_materials(neutral, file), tuple(shapes), deltas)
 
 
 def check_size(shapes: int, vertices: int) -> None:
@@ -60,53 +69,112 @@ def check_size(shapes: int, vertices: int) -> None:
         )
 
 
-def _neutral(path: Path) -> tuple[Mesh, bytes]:
-    """The neutral's mesh, and the block of its file that holds all faces (empty where there is none)."""
-    if path.suffix.lower() != ".obj":
-        return read_mesh(path), b""
-    data = read_bytes(path)
-    return with_materials(path, parse_obj(path, data)), face_block(data)
+@dataclass(frozen=True)
+class _Content:
+    """What a file held, as a digest, and the stamp by which a change since then would show."""
+
+    digest: bytes
+    stamp: tuple[int, ...]
 
 
-def _shape_positions(path: Path, name: str, neutral: Mesh, faces: bytes) -> Float32:
-    """A shape's positions (V, 3), which correspond to the neutral's."""
-    if path.suffix.lower() != ".obj":
-        mesh = read_mesh(path)
-    else:
+def _contents(paths: Sequence[Path]) -> list[_Content]:
+    """The contents of the files, when all are OBJs and worth a place in the cache; else none."""
+    if any(path.suffix.lower() != ".obj" or not path.is_file() for path in paths):
+        return []
+    try:
+        if not cache.worth_keeping(sum(path.stat().st_size for path in paths)):
+            return []
+        with ThreadPoolExecutor(_AT_ONCE) as pool:
+            return list(pool.map(_content, paths))
+    except OSError:
+        return []
+
+
+def _content(path: Path) -> _Content:
+    stamp = _stamp(path)
+    return _Content(cache.digest_of(path), stamp)
+
+
+def _stamp(path: Path) -> tuple[int, ...]:
+    """Size, times and place of a file, or nothing where it is gone."""
+    try:
+        status = path.stat()
+    except OSError:
+        return ()
+    return status.st_size, status.st_mtime_ns, status.st_ctime_ns, status.st_ino
+
+
+def _parsed(neutral: Path, shapes: Mapping[str, Path], progress: Progress) -> tuple[ObjFile, Float32]:
+    """The neutral, and the deltas (K, V, 3)."""
+    face = _Neutral(neutral)
+    base = face.file.mesh.positions
+    check_size(len(shapes), len(base))
+    deltas = np.empty((len(shapes), len(base), 3), np.float32)
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        # Whole arrays leave the interpreter free for much of the time, so two threads are quicker.
+        waiting: deque[tuple[int, Path, Future[Float32]]] = deque()
+        try:
+            for k, (name, path) in enumerate(shapes.items()):
+                waiting.append((k, path, pool.submit(face.positions_of, name, path)))
+                if len(waiting) > _AT_ONCE or k + 1 == len(shapes):
+                    _collect(waiting, _AT_ONCE if k + 1 < len(shapes) else 0, base, deltas, progress)
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return face.file, deltas
+
+
+def _collect(
+    waiting: deque[tuple[int, Path, Future[Float32]]],
+    keep: int,
+    base: Float32,
+    deltas: Float32,
+    progress: Progress,
+) -> None:
+    """Take finished shapes in order until so many are left waiting: no more than a few are held at once."""
+    while len(waiting) > keep:
+        k, path, positions = waiting.popleft()
+        progress((k + 1) / (len(deltas) + 1), f"reading {path.name}")
+        np.subtract(positions.result(), base, out=deltas[k])
+
+
+class _Neutral:
+    """A neutral that shapes are read for; faces that are written just as its own are not read again."""
+
+    def __init__(self, path: Path) -> None:
+        self._faces = b""
+        if path.suffix.lower() != ".obj":
+            self.file = ObjFile(read_mesh(path), ())
+            return
         data = read_bytes(path)
-        positions = _positions_before(path, data, faces)
-        if positions is not None and len(positions) == neutral.vertex_count:
-            return positions
-        mesh = parse_obj(path, data).mesh
-    unlike = difference(neutral, mesh)
-    if unlike is not None:
-        raise _not_corresponding(name, path, unlike)
-    return mesh.positions
+        self.file = parse_obj(path, data)
+        if self.file.faces_from is not None:
+            self._faces = data[self.file.faces_from :]
 
+    def positions_of(self, name: str, path: Path) -> Float32:
+        """The positions (V, 3) of a shape. Raises `CorrespondenceError` where they are not the neutral's."""
+        if path.suffix.lower() != ".obj":
+            mesh = read_mesh(path)
+        else:
+            data = read_bytes(path)
+            positions = self._before_faces(path, data)
+            if positions is not None and len(positions) == self.file.mesh.vertex_count:
+                return positions
+            mesh = parse_obj(path, data).mesh
+        unlike = difference(self.file.mesh, mesh)
+        if unlike is not None:
+            hint = HINTS[unlike.cause].replace("FOLDER", str(path.parent))
+            raise CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
+        return mesh.positions
 
-def _not_corresponding(name: str, path: Path, unlike: Difference) -> CorrespondenceError:
-    hint = HINTS[unlike.cause].replace("FOLDER", str(path.parent))
-    return CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
+    def _before_faces(self, path: Path, data: bytes) -> Float32 | None:
+        """The positions of an OBJ that ends in the neutral's faces; None where it must be read whole.
 
-
-def face_block(data: bytes) -> bytes:
-    """The end of an OBJ that holds all its faces and nothing that they count on; empty where it mixes them.
-
-    What stands before it are vertices, uvs and normals; so another file with the same block after as many
-    vertices has the same polygons.
-    """
-    last = max(data.rfind(b"\n" + word) for word in _WORDS_BEFORE_FACES)
-    start = data.find(b"\n", last + 1) + 1
-    block = data[start:] if last >= 0 and start else b""
-    indented = b"\n " in block or b"\n\t" in block or b"\\" in block
-    return b"" if indented or b"\r" in block.replace(b"\r\n", b"") else block
-
-
-def _positions_before(path: Path, data: bytes, faces: bytes) -> Float32 | None:
-    """The positions of an OBJ that ends in the block `faces`; None where it must be read whole."""
-    if not faces or not data.endswith(faces):
-        return None
-    head = data[: len(data) - len(faces)]
-    if not head.endswith(b"\n") or head[:-1].rstrip(b"\r \t").endswith(b"\\"):
-        return None
-    return parse_positions(path, head)
+        The neutral's block follows all of its vertices, so after as many it means the same polygons.
+        """
+        if not self._faces or not data.endswith(self._faces):
+            return None
+        head = data[: len(data) - len(self._faces)]
+        if not head.endswith(b"\n") or head.rstrip().endswith(b"\\"):
+            return None
+        return parse_positions(path, head)

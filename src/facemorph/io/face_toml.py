@@ -38,9 +38,9 @@ _T = TypeVar("_T")
 def load_described(folder: Path, progress: Progress, cache: bool) -> Rig:
     """The face of a folder with a `face.toml`. Raises `FaceFolderError` and what reading meshes raises."""
     table = _table(folder)
-    neutral, files, npz = described_files(folder)
+    neutral, files, npz = _files(folder, table)
     shapes = _expressions(table)
-    found = read_set(neutral, files, progress)
+    found = read_set(neutral, files, progress, cache)
     count = found.neutral.vertex_count
     more = None
     if npz is not None:
@@ -62,7 +62,10 @@ def described_files(folder: Path) -> tuple[Path, dict[str, Path], Path | None]:
 
     Raises `FaceFolderError`.
     """
-    table = _table(folder)
+    return _files(folder, _table(folder))
+
+
+def _files(folder: Path, table: _Table) -> tuple[Path, dict[str, Path], Path | None]:
     neutral = _file(folder, table, "neutral", "neutral.obj")
     shapes = {entry.text("name"): _file(folder, entry, "file", None) for entry in _expression_entries(table)}
     return neutral, shapes, _file(folder, table, "shapes", None) if table.has("shapes") else None

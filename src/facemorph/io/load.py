@@ -110,7 +110,7 @@ def _from_files(files: list[Path], progress: Progress, cache: bool) -> Rig:
 
 
 def _from_set(name: str, neutral: Path, shapes: Mapping[str, Path], progress: Progress, cache: bool) -> Rig:
-    found = read_set(neutral, shapes, progress)
+    found = read_set(neutral, shapes, progress, cache)
     return Rig(
         found.neutral, tuple(Shape(n, plain_label(n)) for n in found.names), found.deltas, FaceInfo(name)
     )

@@ -53,11 +53,10 @@ def read_faces(
         values, bad = integers(text, *((begin, end) if whole else (begin[present], end[present])))
         values[bad] = 1
         problems.add_first(starts, ends, present[bad], "{token} is no corner of a face")
-        problems.add_first(
-            starts, ends, present[values == 0], f"{{token}} names {PARTS[part]} 0; indices begin at 1"
-        )
-        back = np.flatnonzero(values < 0)
-        if len(back):
+        if int(values.min()) < 1:
+            zero = present[values == 0]
+            problems.add_first(starts, ends, zero, f"{{token}} names {PARTS[part]} 0; indices begin at 1")
+            back = np.flatnonzero(values < 0)
             before = np.cumsum(lines.kind == _KINDS[part])[chosen] + counts_before[part]
             values[back] += np.repeat(before, sizes)[present[back]] + 1
             problems.add_first(
@@ -66,7 +65,10 @@ def read_faces(
                 present[back[values[back] < 1]],
                 f"{{token}} counts back past the first {PARTS[part]}",
             )
-        corners[part, slice(None) if whole else present] = np.minimum(values - 1, _LARGEST)
+        values -= 1
+        if int(values.max()) > _LARGEST:
+            np.minimum(values, _LARGEST, out=values)
+        corners[part, slice(None) if whole else present] = values
     return Faces(sizes.astype(np.int32), corners)
 
 

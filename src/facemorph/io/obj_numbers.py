@@ -41,13 +41,16 @@ class Numbers:
         """The numbers of the lines of one kind (n, most in a line), 0 where there are fewer; counts (n,)."""
         lines, chosen = self._lines, self._lines.of(kind)
         counts = lines.count[chosen] - 1
+        if not len(chosen):
+            return np.zeros((0, least), np.float32), counts
+        width = int(counts[0])
+        if width >= least and width in allowed and bool((counts == width).all()):
+            return self._values(*tokens_of(lines, chosen)).reshape(-1, width), counts
         self._check_counts(chosen, counts, allowed, form)
-        width = max(least, int(counts.max(initial=0)))
+        width = max(least, int(counts.max()))
         if width > max(allowed):
             return np.zeros((len(chosen), least), np.float32), counts
         values = self._values(*tokens_of(lines, chosen))
-        if bool((counts == width).all()):
-            return values.reshape(-1, width), counts
         table = np.zeros((len(chosen), width), np.float32)
         table[np.arange(width) < counts[:, None]] = values
         return table, counts
@@ -66,11 +69,10 @@ class Numbers:
         """The numbers that tokens (n,) write; each must be finite in float32."""
         if not len(starts):
             return np.zeros(0, np.float32)
-        low, high = int(starts[0]), int(ends[-1])
-        dots = np.flatnonzero(self._text.bytes[low:high] == ord(".")) + low
-        values, bad = floats(self._text, starts, ends, dots)
+        values, bad = floats(self._text, starts, ends)
         values[bad] = 0.0
-        self._problems.add_first(starts, ends, bad, *self._why(starts, ends, bad))
+        if len(bad):
+            self._problems.add_first(starts, ends, bad, *self._why(starts, ends, bad))
         return self._single(values, starts, ends)
 
     def _single(self, values: Float64, starts: Int64, ends: Int64) -> Float32:
@@ -85,8 +87,6 @@ class Numbers:
 
     def _why(self, starts: Int64, ends: Int64, bad: Int64) -> tuple[str, str]:
         """What is wrong with the first bad number, and what to do."""
-        if not len(bad):
-            return "", ""
         token = self._text.token(int(starts[bad[0]]), int(ends[bad[0]])).lower()
         if any(word in token for word in (b"nan", b"inf", b"#ind")):
             return "{token} is not finite", ""

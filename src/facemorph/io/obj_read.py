@@ -27,17 +27,24 @@ from facemorph.io.obj_faces import PARTS, Faces, corner_token, read_faces
 from facemorph.io.obj_labels import LabelChanges
 from facemorph.io.obj_numbers import Numbers
 from facemorph.io.obj_problems import Problems, shown
-from facemorph.io.obj_text import Kind, Lines, ObjText, lines_between
+from facemorph.io.obj_text import Kind, Lines, ObjText, lines_between, without_uvs_and_normals
 
 _LIBRARIES = 64
 
 
 @dataclass(frozen=True, eq=False)
 class ObjFile:
-    """What an OBJ says: its mesh, still without what is known of the materials, and its material files."""
+    """What an OBJ says.
+
+    mesh        the mesh, still without what is known of its materials
+    libraries   the names of its material files
+    faces_from  where in the file all faces begin, everything they count on standing before; None where
+                the file mixes them
+    """
 
     mesh: Mesh
     libraries: tuple[str, ...]
+    faces_from: int | None = None
 
 
 def read_obj(path: Path) -> Mesh:
@@ -51,7 +58,7 @@ def parse_obj(path: Path, data: bytes) -> ObjFile:
     scan = _Scan(text)
     for begin, end in text.chunks():
         scan.add(begin, end)
-    return ObjFile(scan.mesh(), tuple(dict.fromkeys(scan.libraries)))
+    return ObjFile(scan.mesh(), tuple(dict.fromkeys(scan.libraries)), scan.faces_from())
 
 
 def with_materials(path: Path, file: ObjFile) -> Mesh:
@@ -64,20 +71,20 @@ def with_materials(path: Path, file: ObjFile) -> Mesh:
 
 
 def parse_positions(path: Path, data: bytes) -> Float32 | None:
-    """Positions (V, 3) of a part of an OBJ that holds no faces; None where it does, or has colours.
+    """Positions (V, 3) of the part of an OBJ before its faces; None where it does hold faces.
 
-    The other lines are passed over unread: for a shape whose faces are known already.
+    Uvs, normals and colours are passed over unread: for a shape whose faces are known already.
     """
     text = ObjText(path, data)
-    pieces = []
+    pieces = [np.zeros((0, 3), np.float32)]
     for begin, end in text.chunks():
-        lines = lines_between(text, begin, end)
+        lines = lines_between(text, *without_uvs_and_normals(text, begin, end))
         if (lines.kind == Kind.FACE).any():
             return None
         problems = Problems(text)
         pieces.append(Numbers(text, lines, problems).vertices()[0])
         problems.raise_first()
-    return np.concatenate(pieces) if pieces else np.zeros((0, 3), np.float32)
+    return np.concatenate(pieces)
 
 
 @dataclass(eq=False)
@@ -94,6 +101,8 @@ class _Scan:
     counts: tuple[int, int, int] = (0, 0, 0)
     polygons: int = 0
     libraries: list[str] = field(default_factory=list)
+    last_vector: int = 0
+    mixed: bool = False
     labels: dict[Kind, LabelChanges] = field(
         default_factory=lambda: {
             Kind.GROUP: LabelChanges("group"),
@@ -122,6 +131,22 @@ class _Scan:
         v, vt, vn = self.counts
         self.counts = (v + len(positions), vt + len(uvs), vn + len(normals))
         self.polygons += len(faces.sizes)
+
+        self._note_order(lines)
+
+    def _note_order(self, lines: Lines) -> None:
+        """Note where the last vertex, uv or normal stands, and whether a face stands before it."""
+        vectors = np.flatnonzero((lines.kind >= Kind.VERTEX) & (lines.kind <= Kind.NORMAL))
+        if len(vectors):
+            faces = lines.of(Kind.FACE)
+            earlier = self.polygons > len(faces) or (len(faces) > 0 and faces[0] < vectors[-1])
+            self.mixed = self.mixed or bool(earlier)
+            self.last_vector = int(lines.starts[lines.first[vectors[-1]]])
+
+    def faces_from(self) -> int | None:
+        """See `ObjFile`."""
+        after = self.text.data.find(b"\n", self.last_vector) + 1
+        return None if self.mixed else min(after, self.text.end) - self.text.begin
 
     def _add_names(self, lines: Lines) -> None:
         named = np.flatnonzero(lines.kind >= Kind.GROUP)

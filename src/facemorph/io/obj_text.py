@@ -14,12 +14,14 @@ from pathlib import Path
 
 import numpy as np
 
-from facemorph.core.arrays import Int64, UInt8
+from facemorph.core.arrays import Bool, Int64, UInt8
 from facemorph.errors import MeshFileError
 from facemorph.io.decimals import PAD, PaddedText
 from facemorph.io.limits import LINE_BYTES, plain_size
 
 _CHUNK_BYTES = 1 << 19
+_FIRST = np.zeros(1, np.int64)
+_NOWHERE = 1 << 62
 _PADDING = b"\n" * PAD
 _BOM = b"\xef\xbb\xbf"
 _LONE_RETURN = re.compile(rb"\r(?!\n)")
@@ -98,6 +100,18 @@ class Lines:
         return np.flatnonzero(self.kind == kind)
 
 
+def without_uvs_and_normals(text: ObjText, begin: int, end: int) -> tuple[int, int]:
+    """A range of whole lines without the `vt` and `vn` lines at its begin and end."""
+    starts = np.flatnonzero(text.bytes[begin - 1 : end - 1] == ord("\n")) + begin
+    second = text.bytes[starts + 1]
+    other = (text.bytes[starts] != ord("v")) | ((second != ord("t")) & (second != ord("n")))
+    kept = np.flatnonzero(other)
+    if not len(kept):
+        return begin, begin
+    last = int(kept[-1])
+    return int(starts[kept[0]]), int(starts[last + 1]) if last + 1 < len(starts) else end
+
+
 def lines_between(text: ObjText, begin: int, end: int) -> Lines:
     """The lines of a range that begins and ends at line ends."""
     # A last line without an end is ended by the padding.
@@ -105,13 +119,24 @@ def lines_between(text: ObjText, begin: int, end: int) -> Lines:
     blank = window <= ord(" ")
     edges = np.flatnonzero(blank[1:] != blank[:-1])
     starts, ends = edges[0::2] + begin, edges[1::2] + begin
-    line_starts = np.flatnonzero(window[:-1] == ord("\n")) + begin
-    first = np.searchsorted(starts, line_starts)
-    count = np.diff(first, append=len(starts))
-    filled = count > 0
-    first, count = first[filled], count[filled]
+    last = np.flatnonzero(_ends_line(text, starts, ends))
+    first = np.concatenate([_FIRST, last[:-1] + 1])[: len(last)]
+    count = last - first + 1
     kind = _kinds(text, starts[first], ends[first])
     return Lines(kind, first, _before_comment(text, starts, first, count), starts, ends)
+
+
+def _ends_line(text: ObjText, starts: Int64, ends: Int64) -> Bool:
+    """Whether each token (N,) of a range of whole lines is the last of its line."""
+    result: Bool = text.bytes[ends] == ord("\n")
+    wide = np.flatnonzero(starts[1:] - ends[:-1] > 1)
+    if len(wide):
+        wide = wide[~result[wide]]
+        newlines = np.flatnonzero(text.bytes[ends[0] : ends[-1] + 1] == ord("\n")) + ends[0]
+        next_line = np.append(newlines, _NOWHERE)[np.searchsorted(newlines, ends[wide])]
+        result[wide] = next_line < starts[wide + 1]
+    result[-1:] = True
+    return result
 
 
 def tokens_of(lines: Lines, chosen: Int64) -> tuple[Int64, Int64]:

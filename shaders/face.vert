@@ -19,8 +19,10 @@ out vec3 surface_normal;
 // Fine meshes are lit a vertex, which nobody can tell from a pixel; coarse ones a pixel.
 #ifdef LIT_BY_VERTEX
 out vec3 surface_light;
-#endif
+out vec3 surface_half;                 // halfway between the eye and the highlight's light
+#else
 out vec3 surface_view;
+#endif
 #endif
 
 #ifdef TEXTURED
@@ -48,9 +50,12 @@ invariant gl_Position;
 void main() {
     surface_normal = normal * side;
 #ifdef LIT
-    surface_view = towards_camera(position);
+    vec3 view = towards_camera(position);
 #ifdef LIT_BY_VERTEX
-    surface_light = diffuse_light(surface_normal, surface_view);
+    surface_light = diffuse_light(surface_normal, view);
+    surface_half = normalize(shine_direction + view);
+#else
+    surface_view = view;
 #endif
 #endif
 #ifdef TEXTURED

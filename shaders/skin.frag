@@ -7,10 +7,11 @@
 uniform vec3 albedo;
 uniform float opacity;
 
-in vec3 surface_view;
-
 #ifdef LIT_BY_VERTEX
 in vec3 surface_light;
+in vec3 surface_half;
+#else
+in vec3 surface_view;
 #endif
 
 #ifdef TEXTURED
@@ -41,9 +42,11 @@ void main() {
     vec3 n = normalize(surface_normal);
 #ifdef LIT_BY_VERTEX
     vec3 light = surface_light;
+    vec3 half_way = surface_half;
 #else
-    vec3 light = diffuse_light(n, normalize(surface_view));
+    vec3 view = normalize(surface_view);
+    vec3 light = diffuse_light(n, view);
+    vec3 half_way = normalize(shine_direction + view);
 #endif
-    vec3 half_way = normalize(shine_direction + surface_view);
     show(displayed(surface * light + highlight(n, half_way)), cover);
 }

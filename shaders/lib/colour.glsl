@@ -5,18 +5,11 @@ vec3 linear_from_srgb(vec3 c) {
     return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878);
 }
 
-// Encoding by square roots (after Chilliant's fit), at most 0.004 from the standard's formula.
-vec3 srgb_from_linear(vec3 c) {
-    vec3 root = sqrt(c);
-    vec3 fourth = sqrt(root);
-    return 0.585122381 * root + 0.783140355 * fourth - 0.368262736 * sqrt(fourth);
-}
-
-// Highlights roll off towards white instead of clipping.
-vec3 tone_mapped(vec3 c) {
-    return c * (1.0 + c * 0.08) / (1.0 + c * 0.55);
-}
-
+// Tone mapping and sRGB encoding in one: x (1 + 0.08 x) / (1 + 0.55 x), by which highlights roll off
+// towards white at 1.7 instead of clipping at 1, followed by the standard's encoding. A fit in the
+// square root of x, at most 0.0045 from both done in full, for a third of their cost.
 vec3 displayed(vec3 light) {
-    return srgb_from_linear(clamp(tone_mapped(light), 0.0, 1.0));
+    vec3 s = sqrt(light);
+    vec3 shown = s * (2.265095 * s - 0.033714) / (s * (s + 1.592663) + 0.026987);
+    return clamp(shown, 0.0, 1.0);
 }

@@ -25,7 +25,7 @@ class Blend:
 
     def __init__(self, neutral: Float32, deltas: Float32) -> None:
         self._neutral = np.ascontiguousarray(neutral, np.float32).reshape(-1)
-        self._rows = deltas.reshape(len(deltas), -1)
+        self._rows = deltas.reshape(len(deltas), self._neutral.size)
         self._sum = np.zeros_like(self._neutral)
         self._scaled = np.empty_like(self._neutral)
         self._positions = self._neutral.copy()

@@ -27,17 +27,13 @@ class Backdrop:
 
     def begin(self, framebuffer: moderngl.Framebuffer, scene: Mapping[str, object]) -> bool:
         """Clear `framebuffer` and put the backdrop in; True where `fill` is still to be called for it."""
-        if framebuffer.samples:
-            framebuffer.use()
-            framebuffer.clear(0.0, 0.0, 0.0, 0.0)
-            return True
-        kept = self._ready(framebuffer.size, scene)
-        self._ctx.copy_framebuffer(framebuffer, kept)
+        kept = None if framebuffer.samples else self._ready(framebuffer.size, scene)
         framebuffer.use()
-        framebuffer.color_mask = False, False, False, False
-        framebuffer.clear()
-        framebuffer.color_mask = True, True, True, True
-        return False
+        framebuffer.clear(0.0, 0.0, 0.0, 0.0)
+        if kept is not None:
+            self._ctx.copy_framebuffer(framebuffer, kept)
+            framebuffer.use()
+        return kept is None
 
     def _ready(self, size: tuple[int, int], scene: Mapping[str, object]) -> moderngl.Framebuffer:
         key = (size, scene["background"])

@@ -66,7 +66,7 @@ def _finding(way: Way) -> Finding:
 
 
 def _trial(renderer: Renderer) -> str:
-    """Draw a triangle that only its shape brings into the picture; empty if it is there, else what is wrong."""
+    """Draw a triangle that its shape brings into the picture; empty if it is there, else what is wrong."""
     corners = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [0.0, 1.0, 0.0]], np.float32)
     away = corners + np.array([50.0, 0.0, 0.0], np.float32)
     mesh = Mesh.from_triangles(away, np.array([[0, 1, 2]], np.int32))

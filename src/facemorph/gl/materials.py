@@ -56,9 +56,9 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("head", SKIN),
 )
 
-CLAY_COLOUR: Colour = (0.46, 0.435, 0.41)
+CLAY_COLOUR: Colour = (0.43, 0.41, 0.385)
 # A mesh without any material: unpainted, but warm.
-PLAIN = Material("", diffuse=(0.56, 0.44, 0.37))
+PLAIN = Material("", diffuse=(0.50, 0.375, 0.305))
 
 
 def finish_of(material: Material) -> Finish:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import AbstractContextManager, nullcontext
 from types import TracebackType
 from typing import TYPE_CHECKING
 
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
 class Offscreen:
     """Draws pictures of one face after another; use it in a `with` statement.
 
-    It makes a context and releases it at the end; lend it `ctx` (a window's, while that is current) to
-    use that one instead. The face drawn last stays loaded, so many pictures of one cost little. A
-    context belongs to one thread: use an `Offscreen` in the thread that made it.
+    It makes a context and releases it at the end. Where a window's context is current, lend that as
+    `ctx`: a second one would take its place in the thread. The face drawn last stays loaded, so many
+    pictures of one cost little. A context belongs to the thread that made it.
     Raises `GraphicsError` where no context can be had.
     """
 
@@ -54,7 +55,7 @@ class Offscreen:
         width, height = checked_size(size)
         if isinstance(camera, str):
             camera = Camera.framing(rig.neutral.bounds, camera, width / height)
-        with self.ctx:
+        with self._current():
             if rig is not self._rig:
                 self.renderer.load(rig)
                 self._rig = rig
@@ -64,9 +65,13 @@ class Offscreen:
             pixels = with_legend(pixels, self.renderer.legend)
         return pixels
 
+    def _current(self) -> AbstractContextManager[object]:
+        """Makes a context of our own current for as long as it is needed; a lent one is already."""
+        return self.ctx if self._own else nullcontext()
+
     def release(self) -> None:
         """Give back what is held, and the context if it is our own."""
-        with self.ctx:
+        with self._current():
             self.renderer.release()
         if self._own:
             self.ctx.release()

@@ -1,0 +1,296 @@
+"""What the commands do to the state: one short function each, free of menus and keys."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from facemorph.core.morph import Curve
+from facemorph.core.picture import Shading
+from facemorph.core.pose import Pose, state_of
+from facemorph.core.progress import Progress
+from facemorph.core.rig import Rig
+from facemorph.errors import FacemorphError
+from facemorph.resources import builtin_faces
+from facemorph.ui.state import App, Face
+from facemorph.ui.words import label_of
+
+MESH_SUFFIXES = (".obj", ".ply", ".stl", ".gltf", ".glb", ".off")
+
+
+def choose_expression(app: App, name: str) -> None:
+    """The present face becomes the slider's source and `name` its goal; nothing jumps (2.11)."""
+    app.playback.stop()
+    if app.rig is None:
+        return
+    if app.pose.way_state() == state_of(name) and app.pose.t != 0.0:
+        app.messages.tell(f"The face is already {label_of(app.rig, name).lower()}.")
+        return
+    app.pose = app.pose.rebased(name)
+
+
+def start_from(app: App, name: str) -> None:
+    """Set the slider's source by hand."""
+    app.playback.stop()
+    app.pose = replace(app.pose, source=state_of(name))
+
+
+def set_slider(app: App, t: float) -> None:
+    """Put the slider somewhere in 0..1."""
+    app.playback.stop()
+    app.pose = replace(app.pose, t=min(max(t, 0.0), 1.0))
+
+
+def nudge_slider(app: App, step: float) -> None:
+    """Move the slider by a step, to hundredths."""
+    set_slider(app, round(app.pose.t + step, 4))
+
+
+def set_curve(app: App, curve: Curve) -> None:
+    """Choose how the slider eases, for now and for faces opened later."""
+    app.pose = replace(app.pose, curve=curve)
+    app.settings.curve = curve
+
+
+def toggle_play(app: App) -> None:
+    """Start or stop running the slider."""
+    if app.playback.playing:
+        app.playback.stop()
+    elif app.expressions:
+        app.playback.loop, app.playback.duration_secs = app.settings.loop, app.settings.duration_secs
+        app.playback.start(app.pose.t)
+
+
+def toggle_loop(app: App) -> None:
+    """Run once, or there and back."""
+    app.settings.loop = app.playback.loop = not app.settings.loop
+
+
+def set_weight(app: App, name: str, weight: float) -> None:
+    """Set what a shape adds to the face."""
+    app.pose = app.pose.with_weight(name, weight)
+
+
+def reset_weights(app: App) -> None:
+    """Take every added shape out; the slider stays."""
+    app.pose = replace(app.pose, weights={})
+
+
+def reset_face(app: App) -> None:
+    """Neutral again: no shapes added, the slider at its start from neutral."""
+    app.playback.stop()
+    app.pose = Pose(target=app.pose.target, curve=app.pose.curve)
+
+
+def toggle_shapes(app: App) -> None:
+    """Take the added shapes out of the face, or put them back."""
+    app.shapes_on = not app.shapes_on
+
+
+def undo(app: App) -> None:
+    """One step back."""
+    snapshot = app.history.undo(app.snapshot())
+    if snapshot is not None:
+        app.restore(snapshot)
+
+
+def redo(app: App) -> None:
+    """One step forward."""
+    snapshot = app.history.redo(app.snapshot())
+    if snapshot is not None:
+        app.restore(snapshot)
+
+
+def set_shading(app: App, shading: Shading) -> None:
+    """Choose what the surface shows."""
+    app.look = replace(app.look, shading=shading)
+
+
+def toggle_heat(app: App) -> None:
+    """The heat map, or the skin again."""
+    set_shading(app, "skin" if app.look.shading == "heat" else "heat")
+
+
+def toggle_wire(app: App) -> None:
+    """Polygon edges over the face."""
+    app.look = replace(app.look, wire=not app.look.wire)
+
+
+def view_from(app: App, direction: str) -> None:
+    """Look from a named direction, the whole face in sight."""
+    app.turntable = False
+    app.framing = direction
+
+
+def frame_face(app: App) -> None:
+    """The whole face in sight, from where the camera stands."""
+    app.framing = f"{app.camera.azimuth_deg},{app.camera.elevation_deg}"
+
+
+def toggle_turntable(app: App) -> None:
+    """Let the camera go round the face."""
+    app.turntable = not app.turntable
+
+
+def toggle_theme(app: App) -> None:
+    """Dark or light."""
+    app.settings.theme = "light" if app.settings.theme == "dark" else "dark"
+
+
+def toggle_left(app: App) -> None:
+    """The faces panel."""
+    app.settings.left_open = app.panels_hidden or not app.settings.left_open
+    app.panels_hidden = False
+
+
+def toggle_right(app: App) -> None:
+    """The shapes panel."""
+    app.settings.right_open = app.panels_hidden or not app.settings.right_open
+    app.panels_hidden = False
+
+
+def toggle_panels(app: App) -> None:
+    """Nothing but the face, or the panels again."""
+    app.panels_hidden = not app.panels_hidden
+
+
+def toggle_wide(app: App) -> None:
+    """Let sliders go below 0 and above 1."""
+    app.settings.wide_weights = not app.settings.wide_weights
+
+
+def toggle_keys(app: App) -> None:
+    """The page of keys."""
+    app.keys_open = not app.keys_open
+
+
+def show_about(app: App) -> None:
+    """Versions and credits."""
+    app.about_open = True
+
+
+def show_palette(app: App) -> None:
+    """Find a command by its name."""
+    app.palette.open, app.palette.fresh = True, True
+    app.palette.words, app.palette.marked = "", 0
+
+
+def ask_for(app: App, purpose: str) -> None:
+    """Ask for a file: purpose is "open", "picture" or "mesh"."""
+    app.chooser.purpose = purpose
+    app.chooser.fresh = True
+
+
+def leave(app: App) -> None:
+    """Shut the window."""
+    app.quit = True
+
+
+def open_builtin(app: App, name: str) -> None:
+    """Open a built-in face."""
+    open_source(app, (name,), builtin=True)
+
+
+def open_source(app: App, source: Sequence[str], *, builtin: bool = False) -> None:
+    """Load a face beside the window; the present one stays until that has gone well."""
+    paths = tuple(source)
+    title = paths[0] if builtin else _short(paths)
+
+    def work(progress: Progress) -> Rig:
+        return load(paths, progress, builtin=builtin)
+
+    def done(rig: Rig) -> None:
+        app.arriving = Face(rig, paths, builtin)
+
+    def failed(error: BaseException) -> None:
+        if not builtin and not any(Path(path).exists() for path in paths):
+            app.settings.forget(paths)
+        tell_error(app, f"{title} was not opened", error)
+
+    app.jobs.start(f"Opening {title}", work, done, failed, kind="face")
+
+
+def load(paths: tuple[str, ...], progress: Progress, *, builtin: bool) -> Rig:
+    """The rig of a built-in's name, of a folder or file, or of several files."""
+    from facemorph.io import load_rig
+
+    if builtin:
+        return load_rig(paths[0], progress=progress)
+    if len(paths) == 1:
+        return load_rig(Path(paths[0]), progress=progress)
+    return load_rig([Path(path) for path in paths], progress=progress)
+
+
+def export_mesh(app: App, path: Path) -> None:
+    """Write the shown face as an OBJ, in the neutral's order, with the morphed surface's normals."""
+    rig, pose = app.rig, app.shown_pose
+    if rig is None:
+        return
+    path = path if path.suffix.lower() == ".obj" else path.with_name(path.name + ".obj")
+
+    def work(progress: Progress) -> Path:
+        from facemorph.core.normals import vertex_normals
+        from facemorph.io import write_obj
+
+        progress(0.1, "Morphing")
+        mesh = rig.posed(pose)
+        normals = vertex_normals(mesh.positions, rig.triangles)
+        progress(0.4, f"Writing {path.name}")
+        write_obj(path, mesh, normals)
+        return path
+
+    app.jobs.start(f"Exporting {path.name}", work, lambda saved: _saved(app, saved), _failing(app, path))
+
+
+def save_picture(app: App, path: Path) -> None:
+    """Save the face as the next frame shows it."""
+    app.picture_path = path if path.suffix.lower() == ".png" else path.with_name(path.name + ".png")
+
+
+def tell_error(app: App, what: str, error: BaseException) -> None:
+    """An error as a message: its own words where it was made for people, a traceback to copy where not."""
+    if isinstance(error, FacemorphError):
+        app.messages.fail(f"{what}. {error}")
+        return
+    details = "".join(traceback.format_exception(error))
+    name = type(error).__name__
+    app.messages.fail(
+        f"{what}, because of a fault in facemorph ({name}). Please report it; Copy holds the details.",
+        details,
+    )
+
+
+def builtin_names() -> tuple[str, ...]:
+    """The built-in faces, by name."""
+    return tuple(builtin_faces())
+
+
+def _saved(app: App, path: Path) -> None:
+    app.messages.tell(f"Saved {path}")
+
+
+def _failing(app: App, path: Path):  # type: ignore[no-untyped-def]
+    def failed(error: BaseException) -> None:
+        tell_error(app, f"{path.name} was not saved", error)
+
+    return failed
+
+
+def write_picture(app: App, path: Path, pixels) -> None:  # type: ignore[no-untyped-def]
+    """Write pixels (H, W, 4) uint8 as a PNG, beside the window."""
+
+    def work(progress: Progress) -> Path:
+        from facemorph.io import write_png
+
+        progress(0.1, f"Writing {path.name}")
+        write_png(path, pixels)
+        return path
+
+    app.jobs.start(f"Saving {path.name}", work, lambda saved: _saved(app, saved), _failing(app, path))
+
+
+def _short(paths: tuple[str, ...]) -> str:
+    name = Path(paths[0]).name or paths[0]
+    return name if len(paths) == 1 else f"{name} and {len(paths) - 1} more"

@@ -1,0 +1,239 @@
+"""The table of commands: menus, keys, the palette and the F1 page are all made from it.
+
+A command is added by one line here. `menu` is the path of menus it hangs in, "" for none; a new
+`group` starts after a line. What depends on the face (expressions, recent files) is appended by
+`commands`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from facemorph.core.camera import DIRECTIONS
+from facemorph.core.morph import CURVES
+from facemorph.core.picture import SHADINGS
+from facemorph.core.pose import NEUTRAL, state_of
+from facemorph.core.rig import plain_label
+from facemorph.ui import actions
+from facemorph.ui.chord import Chord
+from facemorph.ui.state import App
+from facemorph.ui.words import NEUTRAL_LABEL
+
+MENUS = ("File", "Edit", "Expression", "View", "Help")
+SHADING_WORDS = {
+    "skin": "Skin",
+    "clay": "Clay",
+    "wire": "Wireframe",
+    "normals": "Normals",
+    "heat": "Heat map",
+}
+DIRECTION_WORDS = {
+    "front": "Front",
+    "three-quarter": "Three-quarter",
+    "left": "Left side",
+    "right": "Right side",
+}
+
+
+CURVE_HELP = {
+    "linear": "Even speed: P(t) = (1 - t) P0 + t P1 (2.5)",
+    "cosine": "Starts and ends gently: t' = (1 - cos(pi t)) / 2 (2.1, after Parke 1972)",
+}
+
+
+def always(app: App) -> bool:
+    """Nothing stands in the way."""
+    return True
+
+
+def has_face(app: App) -> bool:
+    """A face is open."""
+    return app.face is not None
+
+
+def has_shapes(app: App) -> bool:
+    """The face has something to morph to."""
+    return app.face is not None and bool(app.face.rig.shapes)
+
+
+def has_expressions(app: App) -> bool:
+    """The slider has somewhere to go."""
+    return bool(app.expressions)
+
+
+@dataclass(frozen=True)
+class Command:
+    """One thing the user can do. `title` may depend on the state; `keys` are alternatives."""
+
+    title: str
+    action: Callable[[App], None]
+    menu: str = ""
+    keys: tuple[Chord, ...] = ()
+    group: int = 0
+    enabled: Callable[[App], bool] = always
+    checked: Callable[[App], bool] | None = None
+    note: Callable[[App], str] | None = None
+    help: str = ""
+    repeats: bool = False
+
+    def full_title(self, app: App) -> str:
+        """The title with what it would act on: `Undo: slider to 0.62`."""
+        note = self.note(app) if self.note else ""
+        return f"{self.title}: {note}" if note else self.title
+
+    def run(self, app: App) -> None:
+        """Do it, if it can be done now."""
+        if self.enabled(app):
+            self.action(app)
+
+
+def _keys(text: str) -> tuple[Chord, ...]:
+    return tuple(Chord.parse(part) for part in text.split())
+
+
+def _shading_is(shading: str, app: App) -> bool:
+    return app.look.shading == shading
+
+
+def _curve_is(curve: str, app: App) -> bool:
+    return app.pose.curve == curve
+
+
+def _builtin_is(name: str, app: App) -> bool:
+    return app.face is not None and app.face.builtin and app.face.source == (name,)
+
+
+def _target_is(name: str, app: App) -> bool:
+    return app.pose.target == state_of(name)
+
+
+FILE = (
+    Command("Open face…", partial(actions.ask_for, purpose="open"), "File", _keys("Ctrl+O"),
+            help="One mesh file, or a neutral together with its expressions"),
+    Command("Open face folder…", partial(actions.ask_for, purpose="folder"), "File", _keys("Ctrl+Shift+O"),
+            help="A folder with neutral.obj and its expressions"),
+    Command("Save picture…", partial(actions.ask_for, purpose="picture"), "File", _keys("Ctrl+S"), 2,
+            has_face, help="The face as you see it, as a PNG"),
+    Command("Export mesh…", partial(actions.ask_for, purpose="mesh"), "File", _keys("Ctrl+E"), 2, has_face,
+            help="The morphed face as an OBJ: same vertices, polygons and texture coordinates"),
+    Command("Exit", actions.leave, "File", _keys("Ctrl+Q"), 9),
+)  # fmt: skip
+
+EDIT = (
+    Command("Undo", actions.undo, "Edit", _keys("Ctrl+Z"), 0, lambda app: bool(app.history.undo_words),
+            note=lambda app: app.history.undo_words, repeats=True),
+    Command("Redo", actions.redo, "Edit", _keys("Ctrl+Shift+Z Ctrl+Y"), 0,
+            lambda app: bool(app.history.redo_words), note=lambda app: app.history.redo_words, repeats=True),
+    Command("Reset face", actions.reset_face, "Edit", _keys("Ctrl+R"), 1, has_shapes,
+            help="Neutral again, no shapes added"),
+    Command("Reset all shapes", actions.reset_weights, "Edit", (), 1, lambda app: bool(app.pose.weights),
+            help="Takes out what the Shapes panel adds; the slider stays"),
+    Command("Shapes on", actions.toggle_shapes, "Edit", (), 1, has_shapes, lambda app: app.shapes_on,
+            help="Take what the Shapes panel adds out of the face, and put it back"),
+    Command("Weights below 0 and above 1", actions.toggle_wide, "Edit", (), 2, has_shapes,
+            lambda app: app.settings.wide_weights,
+            help="Exaggerate a shape, or run it backwards; the face may fold through itself"),
+)  # fmt: skip
+
+SLIDER = (
+    Command("Play or pause", actions.toggle_play, "Expression", _keys("Space"), 2, has_expressions,
+            lambda app: app.playback.playing, help="Runs the slider from the source to the goal"),
+    Command("Loop", actions.toggle_loop, "Expression", _keys("L"), 2, has_expressions,
+            lambda app: app.settings.loop, help="Plays there and back again, so that the face never jumps"),
+    *(Command(f"{curve.capitalize()} motion", partial(actions.set_curve, curve=curve), "Expression", (), 3,
+              has_expressions, partial(_curve_is, curve),
+              help=CURVE_HELP[curve])
+      for curve in CURVES),
+    Command("Slider back by 0.01", partial(actions.nudge_slider, step=-0.01), "", _keys("Left"), 0,
+            has_expressions, repeats=True),
+    Command("Slider on by 0.01", partial(actions.nudge_slider, step=0.01), "", _keys("Right"), 0,
+            has_expressions, repeats=True),
+    Command("Slider back by 0.1", partial(actions.nudge_slider, step=-0.1), "", _keys("Shift+Left"), 0,
+            has_expressions, repeats=True),
+    Command("Slider on by 0.1", partial(actions.nudge_slider, step=0.1), "", _keys("Shift+Right"), 0,
+            has_expressions, repeats=True),
+    Command("Slider to 0", partial(actions.set_slider, t=0.0), "", _keys("Home"), 0, has_expressions),
+    Command("Slider to 1", partial(actions.set_slider, t=1.0), "", _keys("End"), 0, has_expressions),
+)  # fmt: skip
+
+VIEW = (
+    *(Command(DIRECTION_WORDS[name], partial(actions.view_from, direction=name), "View", (), 0, has_face)
+      for name in DIRECTIONS),
+    Command("Frame face", actions.frame_face, "View", _keys("F"), 0, has_face,
+            help="The whole face in sight, from where you look"),
+    Command("Turntable", actions.toggle_turntable, "View", _keys("T"), 0, has_face,
+            lambda app: app.turntable),
+    *(Command(SHADING_WORDS[name], partial(actions.set_shading, shading=name), "View", (), 1, has_face,
+              partial(_shading_is, name)) for name in SHADINGS),
+    Command("Wireframe over the face", actions.toggle_wire, "View", _keys("W"), 2, has_face,
+            lambda app: app.look.wire),
+    Command("Heat map on or off", actions.toggle_heat, "", _keys("H"), 2, has_face,
+            lambda app: app.look.shading == "heat",
+            help="How far each point has moved from the neutral face"),
+    Command("Faces panel", actions.toggle_left, "View", (), 3, always,
+            lambda app: app.settings.left_open and not app.panels_hidden),
+    Command("Shapes panel", actions.toggle_right, "View", (), 3, always,
+            lambda app: app.settings.right_open and not app.panels_hidden),
+    Command("Hide the panels", actions.toggle_panels, "View", _keys("Tab"), 3, always,
+            lambda app: app.panels_hidden),
+    Command("Light theme", actions.toggle_theme, "View", (), 4, always,
+            lambda app: app.settings.theme == "light"),
+)  # fmt: skip
+
+HELP = (
+    Command("Find a command…", actions.show_palette, "Help", _keys("Ctrl+K")),
+    Command("Keys and mouse", actions.toggle_keys, "Help", _keys("F1")),
+    Command("About facemorph", actions.show_about, "Help", (), 1),
+)
+
+STATIC = FILE + EDIT + SLIDER + VIEW + HELP
+
+
+def commands(app: App) -> tuple[Command, ...]:
+    """Every command there is now, in the menus' order."""
+    return (*_opening(app), *_expressions(app), *STATIC)
+
+
+def _expressions(app: App) -> tuple[Command, ...]:
+    if app.face is None:
+        return ()
+    names = [(NEUTRAL, NEUTRAL_LABEL), *((shape.name, shape.label) for shape in app.expressions)]
+    return tuple(
+        Command(
+            label,
+            partial(actions.choose_expression, name=name),
+            "Expression",
+            _keys(str(place)) if place <= 7 else (),
+            0,
+            has_expressions,
+            partial(_target_is, name),
+            help="From the present face to this one; the slider starts again at 0 (2.11)",
+        )
+        for place, (name, label) in enumerate(names, start=1)
+    )
+
+
+def _opening(app: App) -> tuple[Command, ...]:
+    builtin = [
+        Command(
+            plain_label(name),
+            partial(actions.open_builtin, name=name),
+            "File/Built-in faces",
+            checked=partial(_builtin_is, name),
+        )
+        for name in app.builtins
+    ]
+    recent = [
+        Command(_recent_title(source), partial(actions.open_source, source=tuple(source)), "File/Open recent")
+        for source in app.settings.recent
+    ]
+    return (*builtin, *recent)
+
+
+def _recent_title(source: list[str]) -> str:
+    path = Path(source[0])
+    shown = str(path) if len(str(path)) <= 48 else f"…/{path.parent.name}/{path.name}"
+    return shown if len(source) == 1 else f"{shown} and {len(source) - 1} more"

@@ -1,0 +1,66 @@
+"""The window's parts, one a module. A new one is added to one of these tuples and appears.
+
+`PARTS` are drawn every frame, in order. A side's `TABS` share its panel; with one entry there is a
+title and no tab bar.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from facemorph.ui.layout import Layout
+from facemorph.ui.state import App
+
+
+@dataclass(frozen=True)
+class Tab:
+    """A page of a side panel: its words, whether it moves the face now, and what draws it."""
+
+    title: str
+    draw: Callable[[App], None]
+    moves_face: Callable[[App], bool] = lambda app: False
+
+
+Part = Callable[[App, Layout], None]
+
+
+def left_tabs() -> tuple[Tab, ...]:
+    """Where things come from."""
+    from facemorph.ui.panels import faces
+
+    return (Tab("Faces", faces.draw),)
+
+
+def right_tabs() -> tuple[Tab, ...]:
+    """The pose, in layers: each page is one method and adds to the sum."""
+    from facemorph.ui.panels import shapes
+
+    return (Tab("Shapes", shapes.draw, shapes.moves_face),)
+
+
+def parts() -> tuple[Part, ...]:
+    """Everything on the window, in drawing order."""
+    from facemorph.ui.panels import (
+        about,
+        bottom_bar,
+        chooser,
+        keys,
+        menu_bar,
+        messages,
+        overlay,
+        palette,
+        sides,
+    )
+
+    return (
+        menu_bar.draw,
+        bottom_bar.draw,
+        sides.draw,
+        overlay.draw,
+        messages.draw,
+        keys.draw,
+        about.draw,
+        chooser.draw,
+        palette.draw,
+    )

@@ -1,0 +1,208 @@
+"""Asking for a file: the desktop's own dialog where there is one, else a path with completion."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any
+
+from imgui_bundle import ImVec2, imgui
+
+from facemorph.ui import actions, dialogs, fonts
+from facemorph.ui.layout import Layout
+from facemorph.ui.panels.frame import begin_page, end_page
+from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of
+from facemorph.ui.state import App
+from facemorph.ui.theme import packed
+from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
+
+_SUFFIXES = {
+    "open": (*actions.MESH_SUFFIXES, ".toml"),
+    "folder": actions.MESH_SUFFIXES,
+    "picture": (".png",),
+    "mesh": (".obj",),
+}
+_SAVING = ("picture", "mesh")
+_HELP = {
+    "open": "A folder with neutral.obj and its expressions, or one mesh file. Type a path; Tab completes it.",
+    "folder": "A folder with neutral.obj and its expressions. Type a path; Tab completes it.",
+    "picture": "Where to save the picture (PNG). Type a path; Tab completes it.",
+    "mesh": "Where to save the morphed face (OBJ). Type a path; Tab completes it.",
+}
+
+
+def draw(app: App, layout: Layout) -> None:
+    """The file chooser, where something is asked for."""
+    state = app.chooser
+    if not state.purpose:
+        return
+    if state.fresh:
+        _begin(app)
+    if state.dialog is not None:
+        _poll(app, state.dialog)
+        return
+    if not begin_page(app, dialogs.TITLES[state.purpose], 640 * unit(), layout):
+        state.purpose = ""
+    else:
+        _page(app)
+    end_page()
+
+
+def _begin(app: App) -> None:
+    state = app.chooser
+    state.path, state.replacing, state.listed = str(_start(app)), "", None
+    if app.native_dialogs:
+        state.fresh = False
+        state.dialog = dialogs.NativeDialog(state.purpose, Path(state.path))
+
+
+def _start(app: App) -> Path | str:
+    folder = Path(app.settings.last_folder)
+    if not app.settings.last_folder or not folder.is_dir():
+        folder = Path.home()
+    if app.chooser.purpose not in _SAVING:
+        return f"{folder}{os.sep}"
+    suffix = _SUFFIXES[app.chooser.purpose][0]
+    title = app.face.title if app.face else ""
+    name = "".join(letter if letter.isalnum() or letter in " -_" else "_" for letter in title)
+    return folder / f"{name.strip() or 'face'}{suffix}"
+
+
+def _poll(app: App, dialog: dialogs.NativeDialog) -> None:
+    answer = dialog.answer()
+    if answer is None:
+        return
+    app.chooser.dialog = None
+    purpose, app.chooser.purpose = app.chooser.purpose, ""
+    if answer:
+        _take(app, purpose, [Path(part) for part in answer])
+
+
+def _page(app: App) -> None:
+    state = app.chooser
+    imgui.push_text_wrap_pos(0.0)
+    imgui.text_disabled(_HELP[state.purpose])
+    imgui.pop_text_wrap_pos()
+    found = _completions(app)
+    entered = _field(app, found)
+    _list(app, found)
+    word = "Save" if state.purpose in _SAVING else "Open"
+    goal = expanded(state.path)
+    again = state.replacing == str(goal)
+    word = "Replace it" if again else word
+    width = imgui.calc_text_size(word).x + 4 * imgui.get_style().frame_padding.x
+    imgui.align_text_to_frame_padding()
+    note = f"{goal.name} is there already." if again else ""
+    imgui.text_unformatted(cut(note, imgui.get_content_region_avail().x - width - 12 * unit()))
+    imgui.same_line(right_edge() - width)
+    imgui.begin_disabled(not _usable(state.purpose, goal))
+    pressed = imgui.button(word, ImVec2(width, 0))
+    imgui.end_disabled()
+    if (pressed or entered) and _usable(state.purpose, goal):
+        _chosen(app, goal)
+
+
+def _completions(app: App) -> list[Entry]:
+    """What completes the typed path; the folder is read again only when the path changes."""
+    state = app.chooser
+    if state.listed is None or state.listed[0] != state.path:
+        state.listed = (state.path, entries(state.path, _SUFFIXES[state.purpose]))
+    return state.listed[1]
+
+
+def _usable(purpose: str, goal: Path) -> bool:
+    if purpose in _SAVING:
+        return goal.parent.is_dir() and not goal.is_dir()
+    return goal.is_dir() if purpose == "folder" else goal.exists()
+
+
+def _chosen(app: App, goal: Path) -> None:
+    state = app.chooser
+    if state.purpose in _SAVING and state.replacing != str(goal):
+        suffix = _SUFFIXES[state.purpose][0]
+        written = goal if goal.suffix.lower() == suffix else goal.with_name(goal.name + suffix)
+        if written.exists():
+            state.path = state.replacing = str(written)
+            return
+    purpose, state.purpose = state.purpose, ""
+    imgui.close_current_popup()
+    _take(app, purpose, [goal])
+
+
+def _take(app: App, purpose: str, paths: list[Path]) -> None:
+    first = paths[0]
+    app.settings.last_folder = str(first.parent)
+    if purpose == "picture":
+        actions.save_picture(app, first)
+    elif purpose == "mesh":
+        actions.export_mesh(app, first)
+    elif len(paths) == 1 and first.name == "face.toml":
+        actions.open_source(app, (str(first.parent),))
+    else:
+        actions.open_source(app, [str(path) for path in paths])
+
+
+def _field(app: App, found: list[Entry]) -> bool:
+    state = app.chooser
+    if icon_button(app, fonts.UP, "up", "The folder above"):
+        parent = folder_of(state.path).parent
+        state.path, state.fresh = _with_name(app, parent), True
+    imgui.same_line(0, 4 * unit())
+    imgui.set_next_item_width(imgui.get_content_region_avail().x)
+    if state.fresh:
+        imgui.set_keyboard_focus_here()
+        state.fresh = False
+    flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.callback_completion
+
+    def complete(data: imgui.InputTextCallbackData) -> int:
+        typed: Any = data.buf  # the binding gives text where its stub says a character
+        longer = completed(typed, found)
+        if longer != typed:
+            data.delete_chars(0, data.buf_text_len)
+            data.insert_chars(0, longer)
+        return 0
+
+    entered, path = imgui.input_text("##path", state.path, flags, complete)
+    state.path = path
+    return bool(entered)
+
+
+def _with_name(app: App, folder: Path) -> str:
+    if app.chooser.purpose not in _SAVING:
+        return f"{folder}{os.sep}" if str(folder) != os.sep else os.sep
+    return str(folder / expanded(app.chooser.path).name)
+
+
+def _list(app: App, found: list[Entry]) -> None:
+    imgui.push_style_color(imgui.Col_.child_bg, colours(app).field)
+    imgui.begin_child("entries", ImVec2(0, 300 * unit()), imgui.ChildFlags_.always_use_window_padding)
+    imgui.pop_style_color()
+    if not found:
+        imgui.text_disabled(
+            "Nothing here begins so." if folder_of(app.chooser.path).is_dir() else "No such folder."
+        )
+    clipper = imgui.ListClipper()
+    clipper.begin(len(found))
+    while clipper.step():
+        for place in range(clipper.display_start, clipper.display_end):
+            _entry(app, found[place], place)
+    imgui.end_child()
+
+
+def _entry(app: App, entry: Entry, place: int) -> None:
+    state, c = app.chooser, colours(app)
+    icon = fonts.FOLDER if entry.is_folder else fonts.FILE
+    imgui.push_id(place)
+    at = imgui.get_cursor_screen_pos()
+    indent = 26 * unit()
+    label = cut(entry.name, imgui.get_content_region_avail().x - indent)
+    pressed = imgui.selectable("##entry", expanded(state.path) == Path(entry.path))[0]
+    paint = imgui.get_window_draw_list()
+    paint.add_text(at, packed(c.accent if entry.is_folder else c.dim), icon)
+    paint.add_text((at.x + indent, at.y), packed(c.text), label)
+    imgui.pop_id()
+    if not pressed:
+        return
+    saving_into = entry.is_folder and state.purpose in _SAVING
+    state.path = str(Path(entry.path) / expanded(state.path).name) if saving_into else entry.path
+    state.fresh = True

@@ -1,0 +1,191 @@
+"""Over the face: its name and what is active, buttons for view and shading, the heat map's legend, a hint."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from facemorph.core.camera import DIRECTIONS
+from facemorph.core.picture import SHADINGS
+from facemorph.gl.heat import Legend
+from facemorph.ui import actions
+from facemorph.ui.commands import DIRECTION_WORDS, SHADING_WORDS
+from facemorph.ui.layout import Layout
+from facemorph.ui.state import App
+from facemorph.ui.theme import Rgba, faded, packed
+from facemorph.ui.widgets import chip, chip_width, colours, cut, unit
+from facemorph.ui.words import state_words
+
+_FLAGS = (
+    imgui.WindowFlags_.no_decoration
+    | imgui.WindowFlags_.no_move
+    | imgui.WindowFlags_.no_saved_settings
+    | imgui.WindowFlags_.no_background
+    | imgui.WindowFlags_.no_focus_on_appearing
+    | imgui.WindowFlags_.no_bring_to_front_on_focus
+)
+_INERT = _FLAGS | imgui.WindowFlags_.no_inputs
+_MARGIN = 14.0
+_SHORT_DIRECTION = {"three-quarter": "¾", "left": "Left", "right": "Right"}
+NO_FACE = "No face is open. Drop a folder of meshes here, or press Ctrl+O."
+HINT = "Pick an expression, then drag the slider"
+
+
+def draw(app: App, layout: Layout) -> None:
+    """Everything over the face: what is only read first, then the buttons."""
+    view = app.viewport
+    _open("##over the face", view.x, view.y, (0.0, 0.0), inert=(view.width, view.height))
+    if app.face is None:
+        _centred(app, "Opening a face…" if app.jobs.of_kind("face") else NO_FACE)
+    else:
+        _caption(app)
+        if app.look.shading == "heat" and app.legend is not None:
+            _legend(app, app.legend)
+        if not app.settings.hint_seen and app.expressions:
+            _hint(app)
+    imgui.end()
+    if app.face is not None:
+        _buttons(app)
+
+
+def _caption(app: App) -> None:
+    view, c, scale = app.viewport, colours(app), unit()
+    assert app.face is not None
+    room = view.width - 2 * _MARGIN * scale
+    if room < 60 * scale:
+        return
+    x, y = view.x + _MARGIN * scale, view.y + 10 * scale
+    imgui.push_font(None, 21.0)
+    _shadowed(app, x, y, packed(c.text), cut(app.face.title, room))
+    imgui.pop_font()
+    words = state_words(app.face.rig, app.shown_state(), most=4)
+    if not app.shapes_on and app.pose.weights:
+        words += "  (shapes off)"
+    _shadowed(app, x, y + 25 * scale, packed(c.text), cut(words, room))
+
+
+def _shadowed(app: App, x: float, y: float, ink: int, text: str) -> None:
+    paint, off = imgui.get_window_draw_list(), unit()
+    shade = packed(faded(colours(app).backdrop, 0.85))
+    for dx, dy in ((off, off), (-off, off), (off, -off), (-off, -off)):
+        paint.add_text((x + dx, y + dy), shade, text)
+    paint.add_text((x, y), ink, text)
+
+
+def _buttons(app: App) -> None:
+    """View and shading, bottom right; they break into two lines, or stay away, where there is no room."""
+    view, scale = app.viewport, unit()
+    gap = 4 * scale
+    directions = [_SHORT_DIRECTION.get(name, DIRECTION_WORDS[name]) for name in DIRECTIONS]
+    shadings = [SHADING_WORDS[name] for name in SHADINGS]
+    widest = max(
+        sum(chip_width(text) + gap for text in (*directions, "Frame", "Turntable")),
+        sum(chip_width(text) + gap for text in shadings),
+    )
+    if widest > view.width - 2 * _MARGIN * scale or view.height < 160 * scale:
+        return
+    _open(
+        "##view buttons", view.x + view.width - _MARGIN * scale, view.y + view.height - 12 * scale, (1.0, 1.0)
+    )
+    imgui.push_style_var(imgui.StyleVar_.item_spacing, ImVec2(gap, gap))
+    _indented(sum(chip_width(text) + gap for text in (*directions, "Frame", "Turntable")), widest)
+    for name, text in zip(DIRECTIONS, directions, strict=True):
+        if chip(app, text, f"Look from: {DIRECTION_WORDS[name].lower()}"):
+            actions.view_from(app, name)
+        imgui.same_line()
+    if chip(app, "Frame", "The whole face in sight (F)"):
+        actions.frame_face(app)
+    imgui.same_line()
+    if chip(app, "Turntable", "The camera goes round the face (T)", lit=app.turntable):
+        actions.toggle_turntable(app)
+    _indented(sum(chip_width(text) + gap for text in shadings), widest)
+    for place, name in enumerate(SHADINGS):
+        if place:
+            imgui.same_line()
+        if chip(app, SHADING_WORDS[name], _SHADING_TIPS[name], lit=app.look.shading == name):
+            actions.set_shading(app, name)
+    imgui.pop_style_var()
+    imgui.end()
+
+
+_SHADING_TIPS = {
+    "skin": "The face as it looks",
+    "clay": "One grey, to see the form",
+    "wire": "The mesh's polygons",
+    "normals": "The direction in which each point of the surface looks, as a colour",
+    "heat": "How far each point has moved from the neutral face (H)",
+}
+
+
+def _indented(width: float, widest: float) -> None:
+    imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + widest - width)
+
+
+def _open(
+    name: str, x: float, y: float, pivot: tuple[float, float], *, inert: tuple[float, float] | None = None
+) -> None:
+    """Begin a window without ground or edge; with a size, one that takes no mouse."""
+    imgui.set_next_window_pos((x, y), 0, pivot)
+    if inert is not None:
+        imgui.set_next_window_size(inert)
+    imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(0, 0))
+    imgui.begin(name, None, _INERT if inert is not None else _FLAGS | imgui.WindowFlags_.always_auto_resize)
+    imgui.pop_style_var()
+
+
+def _legend(app: App, legend: Legend) -> None:
+    view, c, scale = app.viewport, colours(app), unit()
+    width, height, pad = 190 * scale, 10 * scale, 10 * scale
+    line = imgui.get_font_size()
+    x, y = view.x + _MARGIN * scale, view.y + view.height - 12 * scale
+    box = 2 * pad + 2 * line + height + 8 * scale
+    if view.width < width + 4 * _MARGIN * scale or view.height < box + 60 * scale:
+        return
+    paint = imgui.get_window_draw_list()
+    top = y - box
+    paint.add_rect_filled((x, top), (x + width + 3 * pad, y), packed(faded(c.panel, 0.86)), 6 * scale)
+    left, bar = x + 1.5 * pad, top + pad + line + 4 * scale
+    paint.add_text((left, top + pad), packed(c.text), f"Moved from neutral, {legend.unit}")
+    _ramp(legend, left, bar, width, height)
+    for at, text in legend.ticks:
+        size = imgui.calc_text_size(text)
+        middle = left + at * width
+        paint.add_line((middle, bar + height), (middle, bar + height + 3 * scale), packed(c.dim), scale)
+        paint.add_text((middle - size.x / 2, bar + height + 4 * scale), packed(c.text), text)
+
+
+def _ramp(legend: Legend, left: float, top: float, width: float, height: float, steps: int = 32) -> None:
+    paint = imgui.get_window_draw_list()
+    last = len(legend.colours) - 1
+    inks = [packed(_rgba(legend, round(step / steps * last))) for step in range(steps + 1)]
+    for step in range(steps):
+        a, b = left + width * step / steps, left + width * (step + 1) / steps
+        paint.add_rect_filled_multi_color(
+            (a, top), (b, top + height), inks[step], inks[step + 1], inks[step + 1], inks[step]
+        )
+
+
+def _rgba(legend: Legend, place: int) -> Rgba:
+    red, green, blue = (float(value) / 255.0 for value in legend.colours[place])
+    return (red, green, blue, 1.0)
+
+
+def _hint(app: App) -> None:
+    view, scale = app.viewport, unit()
+    size = imgui.calc_text_size(HINT)
+    if size.x > view.width - 20 * scale:
+        return
+    rows = 2 * imgui.get_frame_height() + 40 * scale
+    x, y = view.x + (view.width - size.x) / 2, view.y + view.height - rows - size.y
+    c, pad = colours(app), 10 * scale
+    paint = imgui.get_window_draw_list()
+    corner = (x + size.x + 1.6 * pad, y + size.y + 0.8 * pad)
+    paint.add_rect_filled((x - 1.6 * pad, y - 0.8 * pad), corner, packed(faded(c.panel, 0.80)), 14 * scale)
+    paint.add_text((x, y), packed(c.text), HINT)
+
+
+def _centred(app: App, text: str) -> None:
+    view = app.viewport
+    shown = cut(text, view.width - 40 * unit())
+    size = imgui.calc_text_size(shown)
+    place = (view.x + (view.width - size.x) / 2, view.y + (view.height - size.y) / 2)
+    imgui.get_window_draw_list().add_text(place, packed(colours(app).dim), shown)

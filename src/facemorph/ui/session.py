@@ -1,0 +1,220 @@
+"""One frame of the program, apart from the window it is shown in: state, interface, face, undo.
+
+The window (`window.py`) and the tests drive the same `Session`; it needs a current OpenGL context and
+an ImGui context, and nothing else.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal, Protocol
+
+import numpy as np
+from imgui_bundle import imgui
+
+from facemorph.core.arrays import UInt8
+from facemorph.core.camera import Camera
+from facemorph.core.picture import Look
+from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.errors import FacemorphError
+from facemorph.gl.describe import Graphics
+from facemorph.gl.heat import Legend
+from facemorph.ui import actions, fonts, theme
+from facemorph.ui.draw import draw_ui
+from facemorph.ui.hotkeys import nudging
+from facemorph.ui.panels.messages import sliding
+from facemorph.ui.state import App, Face
+from facemorph.ui.thumbnails import Thumbnails
+
+if TYPE_CHECKING:
+    import moderngl
+
+    from facemorph.gl.picking import Pick
+
+Quality = Literal["full", "fast"]
+TURNTABLE_DEGREES_PER_SEC = 36.0
+# After a pause the clock has run on; an animation goes on from where it was and does not leap.
+LONGEST_STEP_SECS = 0.25
+
+
+class DrawsFaces(Protocol):
+    """What the session needs of `gl.Renderer`; tests may put a stand-in here."""
+
+    graphics: Graphics
+
+    def load(self, rig: Rig) -> None:
+        """Take a rig."""
+
+    def draw(
+        self, pose: Pose, camera: Camera, look: Look, size: tuple[int, int], *, quality: Quality = "full"
+    ) -> None:
+        """Draw it."""
+
+    def read(self) -> UInt8:
+        """The picture drawn last."""
+
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The picture drawn last, for the window."""
+
+    @property
+    def legend(self) -> Legend | None:
+        """Of the picture drawn last."""
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What of the face cannot be shown."""
+
+    def pick(self, x: float, y: float) -> Pick | None:
+        """What lies at a pixel of the picture drawn last, from its top left."""
+
+    def release(self) -> None:
+        """Give everything back."""
+
+
+class Session:
+    """An `App` and what draws it."""
+
+    def __init__(
+        self, app: App, renderer: DrawsFaces, thumbnails: Thumbnails | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:  # fmt: skip
+        self.app = app
+        self.renderer = renderer
+        self.thumbnails = thumbnails
+        self._clock = clock
+        self._last_secs = clock()
+        self._loaded: Face | None = None
+        self._drawn: tuple[object, ...] = ()
+        self._style: tuple[str, float] = ("", 0.0)
+        self._wide_script = False
+        self._hurried = False  # the last picture was drawn for speed, and a still one is due
+        app.graphics = renderer.graphics
+
+    def frame(self, scale: float = 1.0) -> None:
+        """Build one frame; between the backends' `new_frame` and `imgui.render` of the caller.
+
+        `scale` is how many of the interface's units a pixel at scale 1 takes.
+        """
+        app = self.app
+        self._begin(scale)
+        imgui.new_frame()
+        draw_ui(app)
+        self._fulfil(app)
+        self._draw_face(app)
+        busy = imgui.is_any_item_active() or nudging() or app.playback.playing
+        app.history.settle(app.snapshot(), busy=busy)
+
+    def wants_frame_in(self) -> float | None:
+        """Seconds until something moves by itself: 0 at once, None not before the user does something."""
+        app = self.app
+        moving = app.playback.playing or app.turntable or sliding(app)
+        waiting = app.arriving or app.chooser.fresh or (app.face and (app.framing or app.picture_path))
+        thumbs = self.thumbnails is not None and self.thumbnails.busy
+        if moving or waiting or thumbs or self._hurried:
+            return 0.0
+        if app.jobs.running or app.chooser.dialog is not None:
+            return 0.1
+        return app.messages.next_change_secs()
+
+    def close(self) -> None:
+        """Stop all work and give back what draws."""
+        self.app.jobs.close()
+        if self.app.chooser.dialog is not None:
+            self.app.chooser.dialog.close()
+        if self.thumbnails is not None:
+            self.thumbnails.release()
+        self.renderer.release()
+
+    def _begin(self, scale: float) -> None:
+        app = self.app
+        now = self._clock()
+        elapsed, self._last_secs = min(now - self._last_secs, LONGEST_STEP_SECS), now
+        app.jobs.finish()
+        self._take_arriving(app)
+        if app.playback.playing:
+            app.pose = replace(app.pose, t=app.playback.advanced(elapsed))
+        if app.turntable:
+            app.camera = app.camera.orbited(elapsed * TURNTABLE_DEGREES_PER_SEC, 0.0)
+        if self.thumbnails is not None:
+            self.thumbnails.step(app)
+        self._restyle(app, scale)
+
+    def _restyle(self, app: App, scale: float) -> None:
+        wanted = (app.settings.theme, scale)
+        if wanted != self._style:
+            theme.apply(*wanted)
+            self._style = wanted
+        app.look = replace(app.look, background=theme.THEMES[app.settings.theme].backdrop)
+
+    def _take_arriving(self, app: App) -> None:
+        """Show the face that was loaded, if the renderer can; else keep the one there is."""
+        (face, app.arriving), (pose, app.arriving_pose) = (app.arriving, None), (app.arriving_pose, None)
+        if face is None:
+            return
+        try:
+            self._load(face)
+        except FacemorphError as error:
+            actions.tell_error(app, f"{face.title} cannot be drawn", error)
+            self._loaded = None
+            return
+        app.show(face, pose)
+        if not face.builtin:
+            app.settings.remember(face.source)
+        for problem in self.renderer.problems:
+            app.messages.tell(problem)
+
+    def _load(self, face: Face) -> None:
+        self._drawn = ()
+        self.renderer.load(face.rig)
+        self._loaded = face
+        if not self._wide_script and any(fonts.needs_wide_script(shape.label) for shape in face.rig.shapes):
+            self._wide_script = fonts.add_wide_script()
+
+    def _fulfil(self, app: App) -> None:
+        """The wishes that need to know how large the face is shown."""
+        if app.face is None:
+            app.pick_at = app.picture_path = None
+            return
+        if app.framing is not None:
+            app.camera = Camera.framing(app.face.rig.neutral.bounds, app.framing, app.viewport.aspect)
+            app.framing = None
+        if app.pick_at is not None:
+            (x, y), app.pick_at = app.pick_at, None
+            hit = self.renderer.pick(x, y) if self._drawn else None
+            if hit is not None:
+                app.camera = app.camera.pivoted(np.asarray(hit.point, np.float64))
+
+    def _draw_face(self, app: App) -> None:
+        if app.face is None:
+            return
+        if app.face is not self._loaded:
+            self._load(app.face)
+        view = app.viewport
+        # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
+        moving = bool(app.drag) or app.playback.playing or app.turntable or imgui.is_any_item_active()
+        quality: Quality = "fast" if moving and app.picture_path is None else "full"
+        wanted = (app.face, app.shown_pose, app.camera, app.look, view.size)
+        if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
+            self.renderer.draw(app.shown_pose, app.camera, app.look, view.size, quality=quality)
+            self._drawn = (*wanted, quality)
+        self._hurried = False
+        self._legend(app)
+        low, high = (view.x, view.y), (view.x + view.width, view.y + view.height)
+        texture = imgui.ImTextureRef(self.renderer.texture.glo)
+        imgui.get_background_draw_list().add_image(texture, low, high, (0, 1), (1, 0))
+        self._save(app)
+
+    def _legend(self, app: App) -> None:
+        # The interface was built before the face was drawn, so a new legend takes one more frame.
+        if self.renderer.legend is not app.legend:
+            app.legend = self.renderer.legend
+            self._hurried = True
+
+    def _save(self, app: App) -> None:
+        path, app.picture_path = app.picture_path, None
+        if path is not None:
+            actions.write_picture(app, path, self.renderer.read())

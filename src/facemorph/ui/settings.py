@@ -1,0 +1,140 @@
+"""What the window remembers from one day to the next, as JSON in the platform's usual folder.
+
+FACEMORPH_CONFIG_DIR names another folder. A file that cannot be used never stops the start: it is
+kept aside under another name, and the defaults are taken.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+VERSION = 1
+MOST_RECENT = 12
+THEMES = ("dark", "light")
+
+
+@dataclass
+class Settings:
+    """Sizes in unscaled pixels; `recent` holds what was opened, newest first, each as its paths."""
+
+    window_size: list[int] = field(default_factory=lambda: [1280, 800])
+    maximized: bool = False
+    theme: str = "dark"
+    recent: list[list[str]] = field(default_factory=list)
+    left_open: bool = False
+    right_open: bool = True
+    left_width: float = 236.0
+    right_width: float = 348.0
+    shut_sections: list[str] = field(default_factory=list)
+    wide_weights: bool = False
+    loop: bool = False
+    duration_secs: float = 1.5
+    curve: str = "cosine"
+    hint_seen: bool = False
+    last_folder: str = ""
+
+    def remember(self, source: tuple[str, ...]) -> None:
+        """Put what was just opened at the head of the recent list."""
+        entry = list(source)
+        self.recent = [entry, *(other for other in self.recent if other != entry)][:MOST_RECENT]
+
+    def forget(self, source: tuple[str, ...]) -> None:
+        """Take out of the recent list what is not there any more."""
+        self.recent = [other for other in self.recent if other != list(source)]
+
+
+def _text_list(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(entry, str) for entry in value)
+
+
+def _number(low: float, high: float) -> Callable[[Any], bool]:
+    def fits(value: Any) -> bool:
+        plain = isinstance(value, int | float) and not isinstance(value, bool)
+        return plain and math.isfinite(value) and low <= value <= high
+
+    return fits
+
+
+def _flag(value: Any) -> bool:
+    return isinstance(value, bool)
+
+
+_FITS: dict[str, Callable[[Any], bool]] = {
+    "window_size": lambda v: isinstance(v, list) and len(v) == 2 and all(_number(200, 16384)(n) for n in v),
+    "maximized": _flag,
+    "theme": lambda v: v in THEMES,
+    "recent": lambda v: isinstance(v, list) and len(v) <= 100 and all(_text_list(e) and e for e in v),
+    "left_open": _flag,
+    "right_open": _flag,
+    "left_width": _number(120, 2000),
+    "right_width": _number(120, 2000),
+    "shut_sections": _text_list,
+    "wide_weights": _flag,
+    "loop": _flag,
+    "duration_secs": _number(0.1, 60.0),
+    "curve": lambda v: v in ("linear", "cosine"),
+    "hint_seen": _flag,
+    "last_folder": lambda v: isinstance(v, str),
+}
+
+
+def config_folder() -> Path:
+    """Where the settings are kept."""
+    override = os.environ.get("FACEMORPH_CONFIG_DIR")
+    if override:
+        return Path(override)
+    import platformdirs
+
+    return platformdirs.user_config_path("facemorph", appauthor=False)
+
+
+def load_settings(folder: Path) -> tuple[Settings, str]:
+    """The settings kept in `folder`, and a sentence on what was wrong with them ("" if nothing was)."""
+    path = folder / "settings.json"
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return Settings(), ""
+    except (OSError, UnicodeDecodeError) as error:
+        return Settings(), _set_aside(path, f"cannot be read ({error})")
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        return Settings(), _set_aside(path, "is not valid JSON")
+    if not isinstance(data, dict) or data.get("version") != VERSION:
+        return Settings(), _set_aside(path, f"is not of version {VERSION}")
+    settings = Settings()
+    wrong = [name for name, fits in _FITS.items() if name in data and not fits(data[name])]
+    for entry in fields(settings):
+        if entry.name in data and entry.name not in wrong:
+            setattr(settings, entry.name, data[entry.name])
+    return settings, _set_aside(path, f"has unusable values for {', '.join(wrong)}") if wrong else ""
+
+
+def save_settings(folder: Path, settings: Settings) -> None:
+    """Write the settings, whole or not at all. Raises `OutputError` where the folder cannot be written."""
+    from facemorph.errors import OutputError
+    from facemorph.io.atomic import replacing
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"the settings cannot be kept in {folder}: {error}.") from error
+    text = json.dumps({"version": VERSION, **asdict(settings)}, indent=1, ensure_ascii=False)
+    with replacing(folder / "settings.json") as temporary:
+        temporary.write_text(text + "\n", encoding="utf-8")
+
+
+def _set_aside(path: Path, problem: str) -> str:
+    kept = path.with_name("settings-broken.json")
+    try:
+        path.replace(kept)
+    except OSError:
+        return f"The settings file {path} {problem}; the usual settings are used."
+    return f"The settings file {problem}; the usual settings are used and the file is kept as {kept}."

@@ -1,0 +1,205 @@
+"""`App`: the one state object of the window. Panels read it, draw, and assign back.
+
+It knows no window and no graphics: what it wants of them it writes down as a wish (`framing`,
+`pick_at`, `picture_path`, `quit`), and `session.Session` fulfils the wishes once a frame.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from facemorph.core.camera import Camera
+from facemorph.core.picture import Look
+from facemorph.core.pose import Pose, state_of
+from facemorph.core.rig import EXPRESSION, Rig, Shape
+from facemorph.gl.describe import Graphics
+from facemorph.gl.heat import Legend
+from facemorph.ui.history import History, Snapshot
+from facemorph.ui.jobs import Jobs
+from facemorph.ui.messages import Messages
+from facemorph.ui.playback import Playback
+from facemorph.ui.settings import Settings
+
+if TYPE_CHECKING:
+    from facemorph.ui.dialogs import NativeDialog
+    from facemorph.ui.paths import Entry
+
+
+@dataclass(frozen=True, eq=False)
+class Face:
+    """A loaded rig and what it was loaded from: a built-in's name, a folder, or files."""
+
+    rig: Rig
+    source: tuple[str, ...]
+    builtin: bool = False
+
+    @property
+    def title(self) -> str:
+        """The face's own name."""
+        return self.rig.info.name
+
+
+@dataclass(frozen=True)
+class Viewport:
+    """Where the face is shown, in the interface's units, and how many pixels a unit has."""
+
+    x: float = 0.0
+    y: float = 0.0
+    width: float = 1.0
+    height: float = 1.0
+    pixels_per_unit: float = 1.0
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in pixels, at least 1."""
+        return (
+            max(round(self.width * self.pixels_per_unit), 1),
+            max(round(self.height * self.pixels_per_unit), 1),
+        )
+
+    @property
+    def aspect(self) -> float:
+        """Width over height."""
+        width, height = self.size
+        return width / height
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a place in the interface's units lies inside."""
+        return self.x <= x < self.x + self.width and self.y <= y < self.y + self.height
+
+    def centred(self, x: float, y: float) -> tuple[float, float]:
+        """A place as `Camera` takes it: from the centre, in halves of the height, y up."""
+        half = max(self.height, 1.0) / 2.0
+        return (x - self.x - self.width / 2.0) / half, (self.y + self.height / 2.0 - y) / half
+
+    def pixel(self, x: float, y: float) -> tuple[float, float]:
+        """A place as a pixel of the face's picture, from its top left."""
+        return (x - self.x) * self.pixels_per_unit, (y - self.y) * self.pixels_per_unit
+
+
+@dataclass
+class ShapesPanel:
+    """The shapes panel's own: what is searched, and the active shapes in the order they are listed."""
+
+    search: str = ""
+    active: tuple[str, ...] = ()
+    listed_search: str = ""
+
+
+@dataclass
+class Palette:
+    """The command palette: open, the words typed, the entry marked."""
+
+    open: bool = False
+    words: str = ""
+    marked: int = 0
+    fresh: bool = False
+
+
+@dataclass
+class Chooser:
+    """The window's own file chooser, used where the desktop has none. `purpose` "" is shut."""
+
+    purpose: str = ""
+    path: str = ""
+    fresh: bool = False
+    replacing: str = ""
+    dialog: NativeDialog | None = None  # the desktop's own, while it is open
+    listed: tuple[str, list[Entry]] | None = None  # the typed path and what completes it
+
+
+@dataclass
+class App:
+    """Everything that the window shows and changes."""
+
+    settings: Settings = field(default_factory=Settings)
+    jobs: Jobs = field(default_factory=Jobs)
+    messages: Messages = field(default_factory=Messages)
+    history: History = field(default_factory=History)
+    playback: Playback = field(default_factory=Playback)
+    graphics: Graphics | None = None  # what draws, for Help > About
+
+    face: Face | None = None
+    pose: Pose = field(default_factory=Pose)
+    shapes_on: bool = True
+    camera: Camera = field(default_factory=Camera)
+    look: Look = field(default_factory=Look)
+    turntable: bool = False
+    legend: Legend | None = None  # of the heat map as drawn last
+    viewport: Viewport = field(default_factory=Viewport)
+
+    shapes: ShapesPanel = field(default_factory=ShapesPanel)
+    palette: Palette = field(default_factory=Palette)
+    chooser: Chooser = field(default_factory=Chooser)
+    keys_open: bool = False
+    about_open: bool = False
+    panels_hidden: bool = False
+    typing: str = ""  # the slider whose value is being typed
+    typing_fresh: bool = False  # the field has yet to take the keyboard
+    builtins: tuple[str, ...] = ()  # names of the built-in faces
+    drag: str = ""  # what the mouse does to the face: "orbit", "pan" or nothing
+    face_pictures: dict[str, int] = field(default_factory=dict)  # built-in's name -> texture
+
+    arriving: Face | None = None  # loaded, and to be shown if the renderer takes it
+    arriving_pose: Pose | None = None  # to show it in, or at rest
+    framing: str | None = "front"  # a direction to frame the face from
+    pick_at: tuple[float, float] | None = None  # pixel of the surface to turn about from now on
+    picture_path: Path | None = None  # where the next frame is to be saved
+    native_dialogs: bool = False  # the desktop can ask for files
+    quit: bool = False
+
+    @property
+    def rig(self) -> Rig | None:
+        """The present face's rig."""
+        return self.face.rig if self.face else None
+
+    @property
+    def expressions(self) -> tuple[Shape, ...]:
+        """Whole expressions of the present face, without neutral."""
+        return self.face.rig.shapes_in(EXPRESSION) if self.face else ()
+
+    @property
+    def shown_pose(self) -> Pose:
+        """The pose that is drawn, saved and exported: without the shapes where they are switched off."""
+        return self.pose if self.shapes_on else replace(self.pose, weights={})
+
+    def shown_state(self) -> dict[str, float]:
+        """Shape name -> weight of all that is drawn."""
+        pose = self.shown_pose
+        state = pose.way_state()
+        for name, weight in pose.weights.items():
+            state[name] = state.get(name, 0.0) + weight
+        return {name: weight for name, weight in state.items() if weight != 0.0}
+
+    def snapshot(self) -> Snapshot:
+        """What undo would bring back."""
+        return Snapshot(self.face, self.pose, self.shapes_on)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Bring back a snapshot; another face is framed anew."""
+        if snapshot.face is not self.face:
+            self.framing = "front"
+        self.face, self.pose, self.shapes_on = snapshot.face, snapshot.pose, snapshot.shapes_on
+        self.playback.stop()
+
+    def show(self, face: Face, pose: Pose | None = None) -> None:
+        """Make `face` the present one, at rest or in `pose`, seen from the front."""
+        self.face = face
+        self.pose = pose if pose is not None else first_pose(face.rig, self.settings)
+        self.shapes_on = True
+        self.framing = "front"
+        self.shapes = ShapesPanel()
+        self.playback.stop()
+
+    def type_into(self, name: str) -> None:
+        """Open the number beside a slider for typing."""
+        self.typing, self.typing_fresh = name, True
+
+
+def first_pose(rig: Rig, settings: Settings) -> Pose:
+    """At rest, with the first expression as the slider's goal, so that the slider does something."""
+    expressions = rig.shapes_in(EXPRESSION)
+    target = state_of(expressions[0].name) if expressions else {}
+    return Pose(target=target, curve="linear" if settings.curve == "linear" else "cosine")

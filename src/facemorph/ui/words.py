@@ -1,0 +1,65 @@
+"""Poses, changes and times in plain words, for menus, lists and the text over the face."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from facemorph.core.pose import State
+from facemorph.core.rig import Rig, plain_label
+
+if TYPE_CHECKING:
+    from facemorph.ui.history import Snapshot
+
+NEUTRAL_LABEL = "Neutral"
+
+
+def label_of(rig: Rig, name: str) -> str:
+    """The words shown for a shape; a name that the rig does not know is shown as it is."""
+    for shape in rig.shapes:
+        if shape.name == name:
+            return shape.label
+    return plain_label(name)
+
+
+def percent(weight: float) -> str:
+    """0.62 -> `62 %`."""
+    return f"{round(weight * 100)} %"
+
+
+def state_words(rig: Rig, state: State, most: int = 2) -> str:
+    """A mixture of shapes in a few words: `Neutral`, `Happy`, `Happy 62 %`, `Happy 62 %, Sad 20 %`."""
+    parts = [(name, weight) for name, weight in state.items() if round(weight * 100) != 0]
+    if not parts:
+        return NEUTRAL_LABEL
+    parts.sort(key=lambda part: -abs(part[1]))
+    if len(parts) == 1 and round(parts[0][1] * 100) == 100:
+        return label_of(rig, parts[0][0])
+    shown = ", ".join(f"{label_of(rig, name)} {percent(weight)}" for name, weight in parts[:most])
+    return shown if len(parts) <= most else f"{shown}, {len(parts) - most} more"
+
+
+def change_words(before: Snapshot, after: Snapshot) -> str:
+    """What happened between two snapshots, as `Undo` names it."""
+    if before.face is not after.face:
+        return f"open {after.face.title}" if after.face else "close the face"
+    if before.shapes_on != after.shapes_on:
+        return "shapes on" if after.shapes_on else "shapes off"
+    was, now = before.pose, after.pose
+    rig = after.face.rig if after.face else None
+    names = [n for n in {**was.weights, **now.weights} if was.weights.get(n, 0) != now.weights.get(n, 0)]
+    if names:
+        return label_of(rig, names[0]) if rig and len(names) == 1 else f"{len(names)} shapes"
+    if was.target != now.target:
+        return f"choose {state_words(rig, now.target)}" if rig else "choose"
+    if was.curve != now.curve:
+        return f"{now.curve} motion"
+    if was.t != now.t and was.source == now.source:
+        return f"slider to {now.t:.2f}"
+    return f"start from {state_words(rig, now.source)}" if rig else "start"
+
+
+def duration_words(seconds: float) -> str:
+    """How long something still takes: `3 s`, `2 min`."""
+    if seconds < 1.0:
+        return "under 1 s"
+    return f"{round(seconds)} s" if seconds < 90.0 else f"{round(seconds / 60.0)} min"

@@ -8,6 +8,7 @@ Also a module: `head(vertices)`, `write_set(folder, vertices, shapes)`. The same
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -20,45 +21,60 @@ EXPRESSIONS = ("happy", "sad", "angry", "surprised", "disgusted", "afraid")
 _ISLANDS = 8  # strips of the texture: every border between two is a seam
 
 
-def head(vertices: int) -> tuple[Floats, Ints, Floats, Ints]:
-    """Positions (V, 3) in cm, quads (P, 4), uvs (U, 2), and the quads' uv indices (P, 4); V near `vertices`.
+@dataclass(frozen=True)
+class Head:
+    """Positions (V, 3) in cm, uvs (U, 2), and the polygons' vertices and uvs: quads, and triangles at both ends."""
 
-    A tube closed around the head (its columns wrap) from chin to crown, with brows, nose and mouth pressed
-    into it. Each of eight strips of columns has uvs of its own, so a seam's vertices have two.
+    positions: Floats
+    uvs: Floats
+    quads: Ints
+    uv_quads: Ints
+    caps: Ints
+    uv_caps: Ints
+
+
+def head(vertices: int) -> Head:
+    """A closed head of about so many vertices.
+
+    Columns go round the head, rows from crown to chin, with nose and cheeks pressed into it; fans of
+    triangles close both ends. The texture lies in eight strips: at every border between two of them, and
+    at both ends, a vertex has several uvs.
     """
     columns = max(_ISLANDS * round(np.sqrt(vertices * 1.2) / _ISLANDS), _ISLANDS)
-    rows = max(round(vertices / columns), 2)
+    rows = max(round((vertices - 2) / columns), 2)
     row, column = np.meshgrid(np.arange(rows), np.arange(columns), indexing="ij")
     polar = np.pi * (row + 1.0) / (rows + 1.0)
     around = 2.0 * np.pi * column / columns
-    radius = (
-        9.0
-        + 1.5 * np.cos(around) * np.exp(-((polar - 1.7) ** 2) / 0.02)
-        + 0.2 * np.sin(5 * around) * np.sin(polar)
-    )
-    positions = np.stack(
-        [
-            radius * np.sin(polar) * np.sin(around),
-            12.0 * np.cos(polar),
-            radius * np.sin(polar) * np.cos(around),
-        ],
-        axis=2,
-    ).reshape(-1, 3)
+    nose = 1.5 * np.cos(around) * np.exp(-((polar - 1.7) ** 2) / 0.02)
+    radius = 9.0 + nose + 0.2 * np.sin(5 * around) * np.sin(polar)
+    x, z = radius * np.sin(polar) * np.sin(around), radius * np.sin(polar) * np.cos(around)
+    wall = np.stack([x, 12.0 * np.cos(polar), z], axis=2).reshape(-1, 3)
+    positions = np.concatenate([wall, [[0.0, 12.0, 0.0], [0.0, -12.0, 0.0]]])
     r, c = (grid.ravel() for grid in np.meshgrid(np.arange(rows - 1), np.arange(columns), indexing="ij"))
     right = (c + 1) % columns
     quads = np.stack(
         [r * columns + c, (r + 1) * columns + c, (r + 1) * columns + right, r * columns + right], axis=1
     )
-    width = columns // _ISLANDS
     across = columns + _ISLANDS
-    uv_row, uv_column = np.meshgrid(np.arange(rows), np.arange(across), indexing="ij")
-    uvs = np.stack([(uv_column + 0.5) / across, 1.0 - (uv_row + 0.5) / rows], axis=2).reshape(-1, 2)
-    left = c + c // width
+    left = c + c // (columns // _ISLANDS)
     uv_quads = np.stack(
         [r * across + left, (r + 1) * across + left, (r + 1) * across + left + 1, r * across + left + 1],
         axis=1,
     )
-    return positions, quads, uvs, uv_quads
+    top, bottom = quads[:columns, [0, 3]], quads[-columns:, [2, 1]]
+    uv_top, uv_bottom = uv_quads[:columns, [0, 3]], uv_quads[-columns:, [2, 1]]
+    caps = np.concatenate(
+        [np.insert(top[:, ::-1], 2, rows * columns, 1), np.insert(bottom[:, ::-1], 2, rows * columns + 1, 1)]
+    )
+    uv_caps = np.concatenate(
+        [
+            np.insert(uv_top[:, ::-1], 2, rows * across, 1),
+            np.insert(uv_bottom[:, ::-1], 2, rows * across + 1, 1),
+        ]
+    )
+    uv_row, uv_column = np.meshgrid(np.arange(rows), np.arange(across), indexing="ij")
+    uvs = np.stack([(uv_column + 0.5) / across, 1.0 - (uv_row + 1.0) / (rows + 1.0)], axis=2).reshape(-1, 2)
+    return Head(positions, np.concatenate([uvs, [[0.5, 1.0], [0.5, 0.0]]]), quads, uv_quads, caps, uv_caps)
 
 
 def shape(positions: Floats, number: int) -> Floats:
@@ -76,27 +92,25 @@ def shape_names(count: int) -> list[str]:
     return [EXPRESSIONS[i] if i < len(EXPRESSIONS) else f"shape_{i + 1:02d}" for i in range(count)]
 
 
-def obj_text(
-    positions: Floats,
-    quads: Ints,
-    uvs: Floats,
-    uv_quads: Ints,
-    normals: bool = False,
-    triangles: bool = False,
-) -> str:
-    """An OBJ with six decimals, as most programs write it."""
-    parts = ["# head for measuring\no head\ng skin\n"]
+def obj_text(face: Head, positions: Floats, normals: bool = False, triangles: bool = False) -> str:
+    """An OBJ with six decimals, as most programs write it; `triangles` cuts each quad into two."""
+    parts = ["# head for measuring\no head\n"]
     parts.append("".join(map("v %.6f %.6f %.6f\n".__mod__, map(tuple, positions.tolist()))))
-    parts.append("".join(map("vt %.6f %.6f\n".__mod__, map(tuple, uvs.tolist()))))
-    faces = np.stack([quads, uv_quads] + ([quads] if normals else []), axis=2) + 1
+    parts.append("".join(map("vt %.6f %.6f\n".__mod__, map(tuple, face.uvs.tolist()))))
     if normals:
         outward = positions / np.linalg.norm(positions, axis=1, keepdims=True)
         parts.append("".join(map("vn %.4f %.4f %.4f\n".__mod__, map(tuple, outward.tolist()))))
-    if triangles:
-        faces = np.stack([faces[:, [0, 1, 2]], faces[:, [0, 2, 3]]], axis=1).reshape(-1, 3, faces.shape[2])
-    corner = "/".join(["%d"] * faces.shape[2])
-    line = "f " + " ".join([corner] * faces.shape[1]) + "\n"
-    parts.append("".join(map(line.__mod__, map(tuple, faces.reshape(len(faces), -1).tolist()))))
+    polygons = (("skin", face.quads, face.uv_quads), ("ends", face.caps, face.uv_caps))
+    for name, vertices, uvs in polygons:
+        corners = np.stack([vertices, uvs] + ([vertices] if normals else []), axis=2) + 1
+        if triangles and vertices.shape[1] == 4:
+            corners = np.stack([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]], axis=1).reshape(
+                -1, 3, corners.shape[2]
+            )
+        line = "f " + " ".join(["/".join(["%d"] * corners.shape[2])] * corners.shape[1]) + "\n"
+        parts.append(
+            f"g {name}\n" + "".join(map(line.__mod__, map(tuple, corners.reshape(len(corners), -1).tolist())))
+        )
     return "".join(parts)
 
 
@@ -105,12 +119,13 @@ def write_set(
 ) -> list[Path]:
     """Write `neutral.obj` and `shapes` shapes into `folder`; returns their paths, the neutral first."""
     folder.mkdir(parents=True, exist_ok=True)
-    positions, quads, uvs, uv_quads = head(vertices)
-    faces = {"neutral": positions} | {name: shape(positions, i) for i, name in enumerate(shape_names(shapes))}
+    face = head(vertices)
+    faces = {"neutral": face.positions}
+    faces |= {name: shape(face.positions, i) for i, name in enumerate(shape_names(shapes))}
     paths = []
     for name, moved in faces.items():
         paths.append(folder / f"{name}.obj")
-        paths[-1].write_text(obj_text(moved, quads, uvs, uv_quads, normals, triangles), encoding="utf-8")
+        paths[-1].write_text(obj_text(face, moved, normals, triangles), encoding="utf-8", newline="\n")
     return paths
 
 

@@ -50,9 +50,19 @@ def vertex_order(neutral: Mesh, mesh: Mesh) -> Int64 | None:
     # A vertex that a shape moves to just where another one was would mislead: then without those.
     for trust_places in (True, False):
         order = _Refinement(neutral, mesh, trust_places).order()
-        if order is not None:
+        if order is not None and _brings_nearer(neutral, mesh, order):
             return order
     return None
+
+
+def _brings_nearer(neutral: Mesh, mesh: Mesh, order: Int64) -> bool:
+    """Whether the vertices lie nearer to the neutral's in this order than as they stand.
+
+    A symmetric face whose polygons are all turned over is also its own mirror image: that is no repair.
+    """
+    ordered = mesh.positions[order].astype(np.float64) - neutral.positions
+    standing = mesh.positions.astype(np.float64) - neutral.positions
+    return float((ordered**2).sum()) < float((standing**2).sum())
 
 
 def same_polygons(neutral: Mesh, mesh: Mesh) -> bool:

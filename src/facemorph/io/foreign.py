@@ -82,15 +82,16 @@ def _loaded(path: Path, suffix: str, data: bytes) -> Any:
     import trimesh
 
     try:
-        return trimesh.load(
-            io.BytesIO(data),
-            file_type=suffix[1:],
-            resolver=_resolver(path.parent),
-            force="mesh",
-            process=False,
-            fix_texture=False,
-            skip_materials=True,
-        )
+        with np.errstate(all="ignore"):
+            return trimesh.load(
+                io.BytesIO(data),
+                file_type=suffix[1:],
+                resolver=_resolver(path.parent),
+                force="mesh",
+                process=False,
+                fix_texture=False,
+                skip_materials=True,
+            )
     except Exception as error:
         detail = shortened(" ".join(str(error).split()), 80) or type(error).__name__
         raise MeshFileError(path, f"cannot be read as {_NAMES[suffix]}: {detail}") from error

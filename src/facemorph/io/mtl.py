@@ -65,8 +65,10 @@ def _read(folder: Path, name: str) -> Library:
     problems: list[str] = []
     current: Material | None = None
     for line in text.splitlines():
-        key, _, rest = line.strip().partition(" ") if " " in line.strip() else line.strip().partition("\t")
-        rest = rest.strip()
+        words = line.split(None, 1)
+        if not words:
+            continue
+        key, rest = words[0], words[1].strip() if len(words) > 1 else ""
         if key == "newmtl":
             current = None
             if rest and rest not in materials and len(materials) < NAMES:

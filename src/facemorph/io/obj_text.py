@@ -189,10 +189,13 @@ def _with_line_ends(data: bytes) -> bytes:
     return data
 
 
-def _joined_lines(data: bytes) -> bytes:
+def _joined_lines(data: bytes) -> bytes | bytearray:
     """The same length, with continued lines joined; a comment that ends in "\\" (a path) goes on nowhere."""
     if b"\\" not in data:
         return data
-    return _COMMENT_OR_CONTINUED.sub(
-        lambda found: b" " * len(found[0]) if found[0][:1] == b"\\" else found[0], data
-    )
+    joined = bytearray(data)
+    for found in _COMMENT_OR_CONTINUED.finditer(data):
+        start, end = found.span()
+        if data[start] == ord("\\"):
+            joined[start:end] = b" " * (end - start)
+    return joined

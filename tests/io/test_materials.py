@@ -1,0 +1,98 @@
+"""Materials are read as far as they can be, and nothing outside the mesh's folder is touched."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from facemorph.io import read_mesh
+from facemorph.io.mtl import read_libraries
+from tests.io.texts import SQUARE, written
+
+MESH = "mtllib face.mtl\nusemtl skin\n" + SQUARE
+
+
+def texture_of(folder: Path, line: str) -> Path | None:
+    written(folder, f"newmtl skin\n{line}\n", "face.mtl")
+    return read_mesh(written(folder, MESH)).materials["skin"].texture
+
+
+def test_colours_and_opacity_are_read_and_kept_in_range(tmp_path: Path) -> None:
+    written(
+        tmp_path,
+        "newmtl other\nKd 1 1 1\nnewmtl skin\r\n Kd 0.5 2 -1\nKs .25\nNs 96\nTr 0.25\nKd x\n",
+        "face.mtl",
+    )
+    skin = read_mesh(written(tmp_path, MESH)).materials["skin"]
+    assert (skin.diffuse, skin.specular, skin.shininess, skin.opacity) == ((0.5, 1, 0), (0.25,) * 3, 96, 0.75)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "map_Kd a b.png",
+        "map_Kd -s 1 1 1 -o 0 0 a b.png",
+        "map_kd\ta b.png",
+        "map_Kd -clamp on -mm 0 1 a b.png",
+        "map_Kd ./a b.png",
+    ],
+)
+def test_a_texture_is_found_after_its_options(tmp_path: Path, line: str) -> None:
+    (tmp_path / "a b.png").write_bytes(b"x")
+    texture = texture_of(tmp_path, line)
+    assert texture is not None
+    assert texture.resolve() == (tmp_path / "a b.png").resolve()
+
+
+def test_a_texture_in_a_folder_below_is_found_with_either_slash(tmp_path: Path) -> None:
+    (tmp_path / "maps").mkdir()
+    (tmp_path / "maps" / "a.png").write_bytes(b"x")
+    for name in ("maps/a.png", "maps\\a.png"):
+        assert texture_of(tmp_path, f"map_Kd {name}") is not None
+
+
+def test_no_path_leaves_the_folder(tmp_path: Path) -> None:
+    folder = tmp_path / "face"
+    folder.mkdir()
+    outside = tmp_path / "secret.png"
+    outside.write_bytes(b"x")
+    (folder / "link.png").symlink_to(outside)
+    for name in (
+        "../secret.png",
+        str(outside),
+        "link.png",
+        "..\\secret.png",
+        "C:\\secret.png",
+        "a\0b",
+        "x" * 5000,
+    ):
+        assert texture_of(folder, f"map_Kd {name}") is None, name
+    written(tmp_path, "newmtl skin\n", "outside.mtl")
+    assert read_mesh(written(folder, MESH.replace("face.mtl", "../outside.mtl"))).materials == {}
+
+
+def test_a_missing_material_file_does_not_stop_a_mesh_and_is_told(tmp_path: Path) -> None:
+    path = written(tmp_path, MESH)
+    mesh = read_mesh(path)
+    assert mesh.materials == {}
+    assert mesh.materials_used is not None
+    assert mesh.materials_used.names == ("skin",)
+    assert "face.mtl" in read_libraries(path, ["face.mtl"]).problems[0]
+
+
+def test_several_material_files_on_one_line_are_read(tmp_path: Path) -> None:
+    written(tmp_path, "newmtl skin\nKd 1 0 0\n", "a.mtl")
+    written(tmp_path, "newmtl skin\nKd 0 0 0\nnewmtl eye\n", "b.mtl")
+    path = written(tmp_path, "mtllib a.mtl b.mtl\nusemtl skin\n" + SQUARE + "usemtl eye\nf 1 2 3\n")
+    materials = read_mesh(path).materials
+    assert set(materials) == {"skin", "eye"}
+    assert materials["skin"].diffuse == (1, 0, 0)
+
+
+def test_rubbish_is_no_material(tmp_path: Path) -> None:
+    (tmp_path / "face.mtl").write_bytes(
+        b"\xff\0newmtl\nKd 1 1 1\nnewmtl \n\nmap_Kd\nNs nan\nnewmtl skin\nNs nan\nd inf\n"
+    )
+    skin = read_mesh(written(tmp_path, MESH)).materials["skin"]
+    assert (skin.shininess, skin.opacity) == (10.0, 1.0)

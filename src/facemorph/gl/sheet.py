@@ -79,10 +79,22 @@ def _letter_size(tile: tuple[int, int]) -> float:
 
 
 def _paper(look: Look) -> UInt8:
-    """The sheet's own colour: the look's background, a little darker."""
-    red, green, blue, alpha = look.background
-    colour = [red * 0.62, green * 0.62, blue * 0.62, alpha]
+    """The sheet's own colour: that of the backdrop's corners, as `shaders/lib/backdrop.glsl` has it."""
+    depth = min(1.2 * (1.0 - _luminance(look)), 1.0)
+    shade = 1.0 - 0.38 * depth
+    colour = [channel * shade for channel in look.background[:3]] + [look.background[3]]
     return (np.clip(colour, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+
+
+def _luminance(look: Look) -> float:
+    return float(np.dot(look.background[:3], (0.3, 0.6, 0.1)))
+
+
+def _ink(look: Look) -> tuple[int, int, int, int]:
+    """Letters that can be read on the paper; grey where nobody knows what comes behind it."""
+    if look.background[3] <= 0.5:
+        return 128, 132, 140, 255
+    return (236, 238, 242, 255) if _luminance(look) < 0.5 else (24, 26, 30, 255)
 
 
 def _lettered(
@@ -99,14 +111,7 @@ def _lettered(
 
     picture = as_image(sheet_pixels)
     pen = ImageDraw.Draw(picture)
-    luminance = float(np.dot(look.background[:3], (0.3, 0.6, 0.1)))
-    ink = (
-        (236, 238, 242, 255)
-        if luminance * look.background[3] < 0.5 and look.background[3] > 0.5
-        else (24, 26, 30, 255)
-    )
-    if look.background[3] <= 0.5:
-        ink = (128, 132, 140, 255)
+    ink = _ink(look)
     width, height = tile
     size = _letter_size(tile)
     large, small = font(size * 1.3), font(size)

@@ -17,6 +17,7 @@ from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.errors import GraphicsError, OptionError, PoseError, UnknownNameError
 from facemorph.gl import Offscreen, Renderer
+from facemorph.gl.grids import grid_size
 from tests.gl.heads import head_mesh, many_shapes
 
 SIZE = (160, 120)
@@ -285,3 +286,19 @@ def test_an_empty_mesh_draws_its_backdrop(screen: Offscreen) -> None:
             screen.render(still(mesh), size=(32, 32), look=Look(shading=shading), legend=False)[..., 3].min()
             == 255
         )
+
+
+def test_a_face_that_opengl_cannot_hold_leaves_the_one_before(
+    ctx: moderngl.Context, head: Rig, camera: Camera, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    renderer = Renderer(ctx, "shader")
+    renderer.load(head)
+    renderer.draw(Pose.of({"smile": 1.0}), camera, Look(), SIZE)
+    before = renderer.read()
+    monkeypatch.setattr("facemorph.gl.morph_shader.grid_size", lambda count, largest: grid_size(count, 16))
+    with pytest.raises(GraphicsError, match="cpu"):
+        renderer.load(many_shapes(2))
+    monkeypatch.undo()
+    renderer.draw(Pose.of({"smile": 1.0}), camera, Look(), SIZE)
+    assert np.array_equal(renderer.read(), before)
+    renderer.release()

@@ -24,15 +24,18 @@ class CpuMorph:
         self._surface = surface
         self._blend = blend
         self._normals_of = NormalsOf(surface.triangles.vertices, rig.neutral.vertex_count)
+        self._both = np.empty((rig.neutral.vertex_count, 6), np.float32)
         self._drawn = np.empty((surface.drawn_count, 6), np.float32)
+        self._copies = surface.position_of.astype(np.intp)
 
     def update(self, pose: Pose, *, exactly: bool) -> None:
         """Morph to `pose`; `exactly` makes the result independent of the poses before."""
         positions = self._blend(pose.coefficients(self._rig.names), exactly=exactly)
-        normals = self._normals_of(positions)
-        self._drawn[:, :3] = positions.take(self._surface.position_of, axis=0)
-        self._drawn[:, 3:] = normals.take(self._surface.position_of, axis=0)
+        self._both[:, :3] = positions
+        self._both[:, 3:] = self._normals_of(positions)
         if len(self._drawn):
+            # Without a mode numpy gathers into a buffer of its own first.
+            self._both.take(self._copies, axis=0, out=self._drawn, mode="clip")
             self._surface.morphed.orphan()
             self._surface.morphed.write(self._drawn)
 

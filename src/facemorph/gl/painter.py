@@ -133,8 +133,10 @@ class Painter:
             "recess": finish.recess,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
-        by_vertex = ["LIT_BY_VERTEX"] if self._software and surface.drawn_count >= FINE_MESH else []
-        self._draw(surface, part, scene, "skin.frag", ["LIT", *by_vertex, *define], own)
+        # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
+        by_vertex = self._software and surface.drawn_count >= FINE_MESH and scene["side"] == _OUTSIDE
+        lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
+        self._draw(surface, part, scene, "skin.frag", [*lit, *define], own)
 
     def _draw(
         self, surface: Surface, part: Part, scene: Uniforms, name: str, define: list[str], own: Uniforms

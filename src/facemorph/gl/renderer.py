@@ -84,12 +84,19 @@ class Renderer:
         self._legend: Legend | None = None
 
     def load(self, rig: Rig) -> None:
-        """Take `rig` in place of the one before. Raises `GraphicsError` where OpenGL cannot hold it."""
+        """Take `rig` in place of the one before, which stays where this raises.
+
+        Raises `GraphicsError` where OpenGL cannot hold the face.
+        """
+        surface = Surface(self.ctx, rig.neutral)
+        blend = Blend(rig.neutral.positions, rig.deltas)
+        try:
+            morph = self._new_morph(rig, surface, blend)
+        except GraphicsError:
+            surface.release()
+            raise
         self._unload()
-        self._rig = rig
-        self._surface = Surface(self.ctx, rig.neutral)
-        self._blend = Blend(rig.neutral.positions, rig.deltas)
-        self._morph = self._new_morph(rig, self._surface, self._blend)
+        self._rig, self._surface, self._blend, self._morph = rig, surface, blend, morph
         self.stats = Stats()
 
     def _new_morph(self, rig: Rig, surface: Surface, blend: Blend) -> Morph:

@@ -23,7 +23,7 @@ _ISLANDS = 8  # strips of the texture: every border between two is a seam
 
 @dataclass(frozen=True)
 class Head:
-    """Positions (V, 3) in cm, uvs (U, 2), and the polygons' vertices and uvs: quads, and triangles at both ends."""
+    """Positions (V, 3) in cm, uvs (U, 2), and polygons' vertices and uvs: quads, and caps of triangles."""
 
     positions: Floats
     uvs: Floats
@@ -63,13 +63,11 @@ def head(vertices: int) -> Head:
     )
     top, bottom = quads[:columns, [0, 3]], quads[-columns:, [2, 1]]
     uv_top, uv_bottom = uv_quads[:columns, [0, 3]], uv_quads[-columns:, [2, 1]]
-    caps = np.concatenate(
-        [np.insert(top[:, ::-1], 2, rows * columns, 1), np.insert(bottom[:, ::-1], 2, rows * columns + 1, 1)]
-    )
+    caps = np.concatenate([np.insert(top, 2, rows * columns, 1), np.insert(bottom, 2, rows * columns + 1, 1)])
     uv_caps = np.concatenate(
         [
-            np.insert(uv_top[:, ::-1], 2, rows * across, 1),
-            np.insert(uv_bottom[:, ::-1], 2, rows * across + 1, 1),
+            np.insert(uv_top, 2, rows * across, 1),
+            np.insert(uv_bottom, 2, rows * across + 1, 1),
         ]
     )
     uv_row, uv_column = np.meshgrid(np.arange(rows), np.arange(across), indexing="ij")

@@ -31,6 +31,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
 """What to do about a shape that does not correspond, by the cause."""
 
 _AT_ONCE = 2
+_LINE_END = 1_024
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,6 +176,6 @@ class _Neutral:
         if not self._faces or not data.endswith(self._faces):
             return None
         head = data[: len(data) - len(self._faces)]
-        if not head.endswith(b"\n") or head.rstrip().endswith(b"\\"):
+        if not head.endswith(b"\n") or head[-_LINE_END:].rstrip().endswith(b"\\"):
             return None
         return parse_positions(path, head)

@@ -14,14 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from facemorph.core.arrays import Bool, Int64, UInt8
+from facemorph.core.arrays import Int64, UInt8
 from facemorph.errors import MeshFileError
 from facemorph.io.decimals import PAD, PaddedText
 from facemorph.io.limits import LINE_BYTES, plain_size
 
 _CHUNK_BYTES = 1 << 19
 _FIRST = np.zeros(1, np.int64)
-_NOWHERE = 1 << 62
 _PADDING = b"\n" * PAD
 _BOM = b"\xef\xbb\xbf"
 _LONE_RETURN = re.compile(rb"\r(?!\n)")
@@ -42,6 +41,7 @@ class Kind(IntEnum):
     LIBRARY = 8
 
 
+_WORD = re.compile(rb"[a-z]{1,7}(?![^\x00-\x20])")
 _NAMED = {b"g": Kind.GROUP, b"o": Kind.OBJECT, b"usemtl": Kind.MATERIAL, b"mtllib": Kind.LIBRARY}
 
 
@@ -116,27 +116,24 @@ def lines_between(text: ObjText, begin: int, end: int) -> Lines:
     """The lines of a range that begins and ends at line ends."""
     # A last line without an end is ended by the padding.
     window = text.bytes[begin - 1 : end + (end == text.end)]
-    blank = window <= ord(" ")
-    edges = np.flatnonzero(blank[1:] != blank[:-1])
-    starts, ends = edges[0::2] + begin, edges[1::2] + begin
-    last = np.flatnonzero(_ends_line(text, starts, ends))
+    blanks = np.flatnonzero(window <= ord(" ")) + (begin - 1)
+    starts, ends = blanks[:-1] + 1, blanks[1:]
+    filled = ends > starts
+    last_of_line = text.bytes[ends] == ord("\n")
+    if not filled.all():
+        # Where blanks follow blanks, a token is the last of its line if any of them ends the line.
+        token = np.cumsum(filled) - 1
+        after = np.unique(token[last_of_line & (token >= 0)])
+        starts, ends = starts[filled], ends[filled]
+        last_of_line = np.zeros(len(starts), bool)
+        last_of_line[after] = True
+    last = np.flatnonzero(last_of_line)
     first = np.concatenate([_FIRST, last[:-1] + 1])[: len(last)]
     count = last - first + 1
-    kind = _kinds(text, starts[first], ends[first])
-    return Lines(kind, first, _before_comment(text, starts, first, count), starts, ends)
-
-
-def _ends_line(text: ObjText, starts: Int64, ends: Int64) -> Bool:
-    """Whether each token (N,) of a range of whole lines is the last of its line."""
-    result: Bool = text.bytes[ends] == ord("\n")
-    wide = np.flatnonzero(starts[1:] - ends[:-1] > 1)
-    if len(wide):
-        wide = wide[~result[wide]]
-        newlines = np.flatnonzero(text.bytes[ends[0] : ends[-1] + 1] == ord("\n")) + ends[0]
-        next_line = np.append(newlines, _NOWHERE)[np.searchsorted(newlines, ends[wide])]
-        result[wide] = next_line < starts[wide + 1]
-    result[-1:] = True
-    return result
+    kind = _kinds(text, starts[first])
+    if text.data.find(b"#", begin, end) >= 0:
+        _end_at_comments(text, starts, first, count)
+    return Lines(kind, first, count, starts, ends)
 
 
 def tokens_of(lines: Lines, chosen: Int64) -> tuple[Int64, Int64]:
@@ -156,28 +153,31 @@ def tokens_of(lines: Lines, chosen: Int64) -> tuple[Int64, Int64]:
     return lines.starts[tokens], lines.ends[tokens]
 
 
-def _kinds(text: ObjText, starts: Int64, ends: Int64) -> UInt8:
-    """(L,) `Kind` of each line from its first token."""
-    length = ends - starts
+def _kinds(text: ObjText, starts: Int64) -> UInt8:
+    """(L,) `Kind` of each line from where its first token starts."""
     head, second = text.bytes[starts], text.bytes[starts + 1]
+    alone = second <= ord(" ")
     kind = np.zeros(len(starts), np.uint8)
-    kind[(length == 1) & (head == ord("v"))] = Kind.VERTEX
-    kind[(length == 1) & (head == ord("f"))] = Kind.FACE
-    kind[(length == 2) & (head == ord("v")) & (second == ord("t"))] = Kind.UV
-    kind[(length == 2) & (head == ord("v")) & (second == ord("n"))] = Kind.NORMAL
+    vector = head == ord("v")
+    kind[vector & alone] = Kind.VERTEX
+    kind[(head == ord("f")) & alone] = Kind.FACE
+    pairs = np.flatnonzero(vector & ((second == ord("t")) | (second == ord("n"))))
+    if len(pairs):
+        pairs = pairs[text.bytes[starts[pairs] + 2] <= ord(" ")]
+        kind[pairs] = np.where(second[pairs] == ord("t"), Kind.UV, Kind.NORMAL)
     names = (head == ord("g")) | (head == ord("o")) | (head == ord("u")) | (head == ord("m"))
     for i in np.flatnonzero(names):
-        kind[i] = _NAMED.get(text.token(starts[i], ends[i]), Kind.OTHER)
+        word = _WORD.match(text.data, int(starts[i]))
+        kind[i] = _NAMED.get(word[0], Kind.OTHER) if word else Kind.OTHER
     return kind
 
 
-def _before_comment(text: ObjText, starts: Int64, first: Int64, count: Int64) -> Int64:
-    """Each line's tokens before one that begins with "#". Names are read apart."""
+def _end_at_comments(text: ObjText, starts: Int64, first: Int64, count: Int64) -> None:
+    """Lower each line's count to its tokens before one that begins with "#"; names are read apart."""
     comments = np.flatnonzero(text.bytes[starts] == ord("#"))
     if len(comments):
         line = np.searchsorted(first, comments, side="right") - 1
         np.minimum.at(count, line, comments - first[line])
-    return count
 
 
 def _with_line_ends(data: bytes) -> bytes:

@@ -30,7 +30,7 @@ class Finish:
     catches: bool = False
 
 
-SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=2.0)
+SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6)
 EYE = Finish(
     wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.75, shade=0.9, catches=True
 )

@@ -23,15 +23,15 @@ class Lights:
     `catch_from` is where eyes see the key: lower than it is, or the upper lid would hide the highlight.
     """
 
-    key: Light = (1.62, 1.52, 1.40)
-    key_from: tuple[float, float] = (-42.0, 36.0)
-    fill: Light = (0.30, 0.34, 0.40)
+    key: Light = (1.80, 1.68, 1.54)
+    key_from: tuple[float, float] = (-46.0, 38.0)
+    fill: Light = (0.22, 0.255, 0.31)
     fill_from: tuple[float, float] = (48.0, 6.0)
     catch_from: tuple[float, float] = (-27.0, 15.0)
     rim: Light = (2.3, 2.4, 2.6)
     rim_from: tuple[float, float] = (150.0, 35.0)
-    sky: Light = (0.26, 0.28, 0.32)
-    floor: Light = (0.13, 0.105, 0.095)
+    sky: Light = (0.20, 0.22, 0.26)
+    floor: Light = (0.11, 0.088, 0.08)
 
     def uniforms(self, camera: Camera) -> dict[str, Light]:
         """Values for `shaders/lib/light.glsl` as seen by `camera`; directions in the model's space."""

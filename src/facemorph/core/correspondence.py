@@ -75,7 +75,9 @@ def _ring(mesh: Mesh, polygon: int) -> Int32:
 
 def _is_turned_over(ring: Int32, other: Int32) -> bool:
     reversed_ring = ring[::-1]
-    return any(np.array_equal(np.roll(reversed_ring, k), other) for k in range(len(ring)))
+    # A polygon may have a vertex twice, but a handful of beginnings to try is enough for a message.
+    begins = np.flatnonzero(reversed_ring == other[0])[:8].tolist()
+    return any(np.array_equal(np.roll(reversed_ring, -k), other) for k in begins)
 
 
 def _words(ring: Int32) -> str:

@@ -21,6 +21,7 @@ from facemorph.core.mesh import Mesh
 from facemorph.errors import CorrespondenceError
 
 _MOST_ROUNDS = 400
+_MOST_CORNERS_VISITED = 100_000_000
 _MOST_PARTS = 2_000
 
 _UInt64 = NDArray[np.uint64]
@@ -149,7 +150,7 @@ class _Refinement:
         False where the meshes' colours come to differ, or it takes too long.
         """
         classes = 0
-        while self._rounds < _MOST_ROUNDS:
+        while self._rounds < min(_MOST_ROUNDS, _MOST_CORNERS_VISITED // (len(self._next) + 1)):
             self._rounds += 1
             mine, theirs = np.sort(self._colours.reshape(2, self._count), axis=1)
             if not np.array_equal(mine, theirs):

@@ -9,6 +9,9 @@ import numpy as np
 from facemorph.core.arrays import Bool, Float64, Int32, Int64
 from facemorph.core.mesh import Mesh
 
+_LARGEST_CUT = 512
+"""Most corners of a concave polygon that is cut: the time goes by their cube. Larger ones stay fans."""
+
 
 @dataclass(frozen=True, eq=False)
 class Triangles:
@@ -43,7 +46,7 @@ def triangulated(mesh: Mesh) -> Triangles:
 
 def _cut_concave(mesh: Mesh, corners: Int64, starts: Int64, sizes: Int64, offsets: Int64) -> None:
     """Replace the fans of concave polygons in `corners`, in place."""
-    for p in np.flatnonzero(_concave(mesh, starts, sizes)):
+    for p in np.flatnonzero(_concave(mesh, starts, sizes) & (sizes <= _LARGEST_CUT)):
         size, start = int(sizes[p]), int(starts[p])
         outline = mesh.positions[mesh.corner_vertices[start : start + size]].astype(np.float64)
         cut = _ear_clipped(_projected(outline))

@@ -28,6 +28,7 @@ _STRAY = 0.01
 # Even good scans and sculpts crumple a few small triangles at the corners of mouth and eyes.
 _WORTH_TELLING = 0.002
 _STRAY_RATIO = 6.0
+_MOST_SUSPECTS = 10_000
 
 
 class Movements:
@@ -77,7 +78,7 @@ class Movements:
         """Vertices that move far off from where all of their neighbours move."""
         away = np.linalg.norm(delta - self._means(delta), axis=1)
         suspects = np.flatnonzero(away > _STRAY * self._size)
-        stray = [v for v in suspects.tolist() if self._leaves_all(v, delta)]
+        stray = [v for v in suspects[:_MOST_SUSPECTS].tolist() if self._leaves_all(v, delta)]
         if stray:
             moves = "1 vertex moves" if len(stray) == 1 else f"{len(stray):,} vertices move"
             yield "stray-movement", f"{moves} far away from all neighbours: {numbers(np.array(stray))}."

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from facemorph.core.mesh import Mesh
+from facemorph.core.triangles import triangulated
 from facemorph.errors import MeshFileError
 from facemorph.io import limits
 from facemorph.io.obj_read import parse_obj, parse_positions
@@ -164,3 +165,15 @@ def test_a_device_is_not_read() -> None:
         pytest.skip("this system has no /dev/zero")
     with pytest.raises(MeshFileError, match="no ordinary file"):
         limits.read_bytes(device)
+
+
+def test_a_polygon_of_many_corners_is_read_and_drawn_in_bounded_time() -> None:
+    count = 20_000
+    angle = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    radius = np.where(np.arange(count) % 2, 1.0, 0.5)
+    vertices = "".join(
+        f"v {x:.6f} {y:.6f} 0\n" for x, y in zip(np.cos(angle) * radius, np.sin(angle) * radius, strict=True)
+    )
+    mesh = parse_obj(HERE, f"{vertices}f {' '.join(map(str, range(1, count + 1)))}\n".encode()).mesh
+    assert mesh.polygon_starts.tolist() == [0, count]
+    assert len(triangulated(mesh).vertices) == count - 2

@@ -47,7 +47,7 @@ def ball_rig(
         centre = random.normal(size=3) * (1, 1, 0.2) + (0, 0, 1.2)
         centre *= 9.0 / np.linalg.norm(centre)
         near = np.exp(-(((positions - centre) / 3.0) ** 2).sum(axis=1))
-        deltas[k] = (positions / 9.0) * near[:, None] * 1.6
+        deltas[k] = (positions / 9.0) * near[:, None] * 3.5
     return Rig(Mesh.from_triangles(positions, triangles), shapes, deltas, FaceInfo(name, unit="cm"))
 
 
@@ -108,7 +108,7 @@ class Offscreen:
         self.session = Session(self.app, Renderer(self.ctx), pictures, self.clock)
         self.face = None
         if rig is not None:
-            self.app.arriving = Face(rig, (rig.info.name,))
+            self.app.arriving = Face(rig, (rig.info.name,), builtin=True)
         self.frames(3)
 
     def frame(self) -> None:

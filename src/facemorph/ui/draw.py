@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from imgui_bundle import imgui
+
 from facemorph.ui import viewport_input
 from facemorph.ui.hotkeys import run_hotkeys
 from facemorph.ui.layout import laid_out
@@ -16,3 +18,13 @@ def draw_ui(app: App) -> None:
     for part in parts():
         part(app, layout)
     viewport_input.handle(app)
+    _escape()
+
+
+def _escape() -> None:
+    """Escape shuts an open menu or list; pages and text fields see to it themselves."""
+    page = imgui.internal.get_top_most_popup_modal() is not None
+    opened = imgui.is_popup_open("", imgui.PopupFlags_.any_popup)
+    typing = imgui.get_io().want_text_input
+    if opened and not page and not typing and imgui.is_key_pressed(imgui.Key.escape, False):
+        imgui.internal.close_popup_to_level(0, True)

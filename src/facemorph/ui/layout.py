@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from imgui_bundle import imgui
@@ -33,10 +34,11 @@ class Layout:
 def laid_out(app: App) -> Layout:
     """The layout for the present window size; sets `app.viewport` to what is left for the face."""
     size, scale = imgui.get_io().display_size, unit()
-    menu = imgui.get_frame_height()
-    bottom = imgui.get_frame_height() + 20 * scale
-    left = side_width(app, app.settings.left_open, app.settings.left_width) * scale
-    right = side_width(app, app.settings.right_open, app.settings.right_width) * scale
+    # Whole units: ImGui puts windows there, and a gap would show.
+    menu = math.ceil(imgui.get_frame_height())
+    bottom = math.ceil(imgui.get_frame_height() + 20 * scale)
+    left = side_width(app, app.settings.left_open, app.settings.left_width) * scale // 1
+    right = side_width(app, app.settings.right_open, app.settings.right_width) * scale // 1
     spare = size.x - LEAST_FACE_WIDTH * scale - left
     right = max(min(right, spare), LEAST_SIDE_WIDTH * scale) if right else 0.0
     layout = Layout(size.x, size.y, menu, bottom, left, right)

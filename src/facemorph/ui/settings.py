@@ -30,7 +30,7 @@ class Settings:
     left_open: bool = False
     right_open: bool = True
     left_width: float = 236.0
-    right_width: float = 348.0
+    right_width: float = 376.0
     shut_sections: list[str] = field(default_factory=list)
     wide_weights: bool = False
     loop: bool = False

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-# ImGui measures a font from its highest to its lowest point: 17.5 is what type setters call 15 pixels.
-FONT_PIXELS = 17.5
+# ImGui measures a font from its highest to its lowest point: 18 is what type setters call 15 pixels.
+FONT_PIXELS = 18.0
 Rgba = tuple[float, float, float, float]
 
 

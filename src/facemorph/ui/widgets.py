@@ -139,17 +139,22 @@ def switch(app: App, name: str, on: bool) -> bool:
 
 
 def cut(text: str, room: float) -> str:
-    """`text`, cut with an ellipsis where it is wider than `room`."""
+    """`text`, with an ellipsis in it where it is wider than `room`; its end stays: long names differ there."""
     if imgui.calc_text_size(text).x <= room:
         return text
     low, high = 0, len(text)
     while low < high:
         middle = (low + high + 1) // 2
-        if imgui.calc_text_size(text[:middle].rstrip() + "…").x <= room:
+        if imgui.calc_text_size(_shortened(text, middle)).x <= room:
             low = middle
         else:
             high = middle - 1
-    return text[:low].rstrip() + "…"
+    return _shortened(text, low)
+
+
+def _shortened(text: str, letters: int) -> str:
+    tail = letters // 3
+    return f"{text[: letters - tail].rstrip()}…{text[len(text) - tail :].lstrip() if tail else ''}"
 
 
 def row_label(app: App, text: str, width: float, tip: str = "", *, bright: bool = True) -> None:

@@ -47,7 +47,7 @@ def _row(app: App) -> None:
     number, seconds = 50 * scale, 54 * scale
     words = imgui.calc_text_size("From").x + imgui.calc_text_size("To").x
     buttons = 2 * imgui.get_frame_height()
-    fixed = 2 * list_width + curve_width + number + seconds + words + buttons + 9 * gap + 8 * scale
+    fixed = 2 * list_width + curve_width + number + seconds + words + buttons + 6 * gap + 17 * scale
     _expression_list(app, "From", app.pose.source, list_width, actions.start_from, _FROM_TIP)
     imgui.same_line(0, gap + 4 * scale)
     _playing(app, seconds)

@@ -24,10 +24,10 @@ _SUFFIXES = {
 }
 _SAVING = ("picture", "mesh")
 _HELP = {
-    "open": "A folder with neutral.obj and its expressions, or one mesh file. Type a path; Tab completes it.",
-    "folder": "A folder with neutral.obj and its expressions. Type a path; Tab completes it.",
-    "picture": "Where to save the picture (PNG). Type a path; Tab completes it.",
-    "mesh": "Where to save the morphed face (OBJ). Type a path; Tab completes it.",
+    "open": "A mesh file, or the folder of a face. Tab completes what you type.",
+    "folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
+    "picture": "Where to save the picture (PNG). Tab completes what you type.",
+    "mesh": "Where to save the morphed face (OBJ). Tab completes what you type.",
 }
 
 
@@ -153,8 +153,15 @@ def _field(app: App, found: list[Entry]) -> bool:
         imgui.set_keyboard_focus_here()
         state.fresh = False
     flags = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.callback_completion
+    flags |= imgui.InputTextFlags_.callback_always
 
     def complete(data: imgui.InputTextCallbackData) -> int:
+        if data.event_flag == imgui.InputTextFlags_.callback_always:
+            if data.event_activated:
+                # Taking the keyboard marks the whole path, and the first letter would wipe it out.
+                data.clear_selection()
+                data.cursor_pos = data.buf_text_len
+            return 0
         typed: Any = data.buf  # the binding gives text where its stub says a character
         longer = completed(typed, found)
         if longer != typed:

@@ -31,7 +31,7 @@ def begin_page(app: App, title: str, width: float, layout: Layout, *, top: float
     imgui.begin_popup_modal(title, None, _FLAGS)
     imgui.pop_style_var(2)
     side = imgui.get_frame_height()
-    imgui.push_font(None, 21.0)
+    imgui.push_font(None, 22.0)
     imgui.text_unformatted(title)
     imgui.pop_font()
     imgui.same_line(right_edge() - side)

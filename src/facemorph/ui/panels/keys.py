@@ -26,21 +26,19 @@ def draw(app: App, layout: Layout) -> None:
     """The page of keys, where it is open."""
     if not app.keys_open:
         return
-    app.keys_open = begin_page(app, "Keys and mouse", 720 * unit(), layout)
-    if imgui.begin_table("keys", 2):
-        sections = _sections(app)
-        half = (sum(len(rows) + 2 for _, rows in sections) + len(MOUSE) + 2) / 2
+    app.keys_open = begin_page(app, "Keys and mouse", 780 * unit(), layout)
+    room = imgui.get_content_region_avail().x
+    if imgui.begin_table("keys", 2, imgui.TableFlags_.sizing_stretch_same, ImVec2(room, 0)):
+        sections = [*_sections(app), ("Mouse", list(MOUSE))]
+        half = sum(len(rows) + 2 for _, rows in sections) / 2
         imgui.table_next_column()
         used, second = 0, False
         for title, rows in sections:
-            if used >= half - 2 and not second:
+            used += len(rows) + 2
+            if used > half + 2 and not second:
                 imgui.table_next_column()
                 second = True
             _section(app, title, rows)
-            used += len(rows) + 2
-        if not second:
-            imgui.table_next_column()
-        _section(app, "Mouse", list(MOUSE))
         imgui.end_table()
     end_page()
 
@@ -71,6 +69,7 @@ def _section(app: App, title: str, rows: list[tuple[str, str]]) -> None:
     for what, keys in rows:
         wide = imgui.calc_text_size(keys).x
         imgui.text_unformatted(cut(what, room - wide - 12 * scale))
-        imgui.same_line(start + room - wide)
+        imgui.same_line()
+        imgui.set_cursor_pos_x(start + room - wide)
         imgui.text_disabled(keys)
     imgui.dummy(ImVec2(0, 6 * scale))

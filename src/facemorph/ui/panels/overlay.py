@@ -6,14 +6,15 @@ from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.picture import SHADINGS
+from facemorph.core.rig import Rig
 from facemorph.gl.heat import Legend
 from facemorph.ui import actions
 from facemorph.ui.commands import DIRECTION_WORDS, SHADING_WORDS
 from facemorph.ui.layout import Layout
 from facemorph.ui.state import App
-from facemorph.ui.theme import Rgba, faded, packed
+from facemorph.ui.theme import FONT_PIXELS, Rgba, faded, packed
 from facemorph.ui.widgets import chip, chip_width, colours, cut, unit
-from facemorph.ui.words import state_words
+from facemorph.ui.words import NEUTRAL_LABEL, label_of, percent
 
 _FLAGS = (
     imgui.WindowFlags_.no_decoration
@@ -25,6 +26,8 @@ _FLAGS = (
 )
 _INERT = _FLAGS | imgui.WindowFlags_.no_inputs
 _MARGIN = 14.0
+_TITLE_PIXELS = 22.0
+_MOST_LINES = 6
 _SHORT_DIRECTION = {"three-quarter": "¾", "left": "Left", "right": "Right"}
 NO_FACE = "No face is open. Drop a folder of meshes here, or press Ctrl+O."
 HINT = "Pick an expression, then drag the slider"
@@ -48,27 +51,42 @@ def draw(app: App, layout: Layout) -> None:
 
 
 def _caption(app: App) -> None:
+    """The face's name, and under it what is active, a line each, on a ground that keeps them readable."""
     view, c, scale = app.viewport, colours(app), unit()
     assert app.face is not None
-    room = view.width - 2 * _MARGIN * scale
+    room = min(view.width - 4 * _MARGIN * scale, 300 * scale)
     if room < 60 * scale:
         return
-    x, y = view.x + _MARGIN * scale, view.y + 10 * scale
-    imgui.push_font(None, 21.0)
-    _shadowed(app, x, y, packed(c.text), cut(app.face.title, room))
+    x, y = view.x + _MARGIN * scale, view.y + 12 * scale
+    lines = [cut(line, room) for line in _active_lines(app, app.face.rig)]
+    imgui.push_font(None, _TITLE_PIXELS)
+    title = cut(app.face.title, room)
+    title_size = imgui.calc_text_size(title)
+    widest = max([title_size.x, *(line_width(line) for line in lines)])
+    step = imgui.get_font_size() * FONT_PIXELS / _TITLE_PIXELS + 3 * scale
+    paint, pad = imgui.get_window_draw_list(), 8 * scale
+    low = (x + widest + 1.5 * pad, y + title_size.y + step * len(lines) + pad)
+    paint.add_rect_filled((x - 0.5 * pad, y - 0.6 * pad), low, packed(faded(c.panel, 0.62)), 6 * scale)
+    paint.add_text((x + 0.4 * pad, y), packed(c.text), title)
     imgui.pop_font()
-    words = state_words(app.face.rig, app.shown_state(), most=4)
+    for place, line in enumerate(lines):
+        at = (x + 0.4 * pad, y + title_size.y + 3 * scale + step * place)
+        paint.add_text(at, packed(c.dim if line == NEUTRAL_LABEL else c.text), line)
+
+
+def line_width(text: str) -> float:
+    """Width of a text at the usual size, whatever font is pushed."""
+    return float(imgui.calc_text_size(text).x * FONT_PIXELS / _TITLE_PIXELS)
+
+
+def _active_lines(app: App, rig: Rig) -> list[str]:
+    state = sorted(app.shown_state().items(), key=lambda part: -abs(part[1]))
+    lines = [f"{label_of(rig, name)} {percent(weight)}" for name, weight in state if round(weight * 100)]
+    if len(lines) > _MOST_LINES:
+        lines = [*lines[: _MOST_LINES - 1], f"{len(lines) - _MOST_LINES + 1} more"]
     if not app.shapes_on and app.pose.weights:
-        words += "  (shapes off)"
-    _shadowed(app, x, y + 25 * scale, packed(c.text), cut(words, room))
-
-
-def _shadowed(app: App, x: float, y: float, ink: int, text: str) -> None:
-    paint, off = imgui.get_window_draw_list(), unit()
-    shade = packed(faded(colours(app).backdrop, 0.85))
-    for dx, dy in ((off, off), (-off, off), (off, -off), (-off, -off)):
-        paint.add_text((x + dx, y + dy), shade, text)
-    paint.add_text((x, y), ink, text)
+        lines.append("Shapes are switched off")
+    return lines or [NEUTRAL_LABEL]
 
 
 def _buttons(app: App) -> None:

@@ -208,7 +208,7 @@ def _row(app: App, shape: Shape, section: str) -> None:
     low, high = min(low, weight), max(high, weight)
     room, scale = imgui.get_content_region_avail().x, unit()
     number = 48 * scale
-    label = max((room - number) * 0.42, 60 * scale)
+    label = max((room - number) * 0.47, 60 * scale)
     key = f"{section}/{shape.name}"
     imgui.indent(6 * scale)
     tip = f"{shape.name}\nDrag, double-click to type, right-click to reset"

@@ -14,21 +14,21 @@ _FLAGS = (
     imgui.WindowFlags_.no_decoration
     | imgui.WindowFlags_.no_move
     | imgui.WindowFlags_.no_saved_settings
-    | imgui.WindowFlags_.no_bring_to_front_on_focus
     | imgui.WindowFlags_.no_scroll_with_mouse
 )
+_BEHIND = _FLAGS | imgui.WindowFlags_.no_bring_to_front_on_focus
 _EDGE = 6.0
 
 
 def draw(app: App, layout: Layout) -> None:
     """Both sides, where they are open."""
     if layout.left:
-        _side(app, "##left", 0.0, layout.left, layout, left_tabs())
         moved = _edge(app, "##left edge", layout.left, layout)
+        _side(app, "##left", 0.0, layout.left, layout, left_tabs())
         app.settings.left_width = _clamped(app.settings.left_width, moved, layout)
     if layout.right:
-        _side(app, "##right", layout.width - layout.right, layout.right, layout, right_tabs())
         moved = _edge(app, "##right edge", layout.width - layout.right, layout)
+        _side(app, "##right", layout.width - layout.right, layout.right, layout, right_tabs())
         app.settings.right_width = _clamped(app.settings.right_width, -moved, layout)
 
 
@@ -42,7 +42,7 @@ def _clamped(width: float, moved: float, layout: Layout) -> float:
 def _side(app: App, name: str, x: float, width: float, layout: Layout, tabs: tuple[Tab, ...]) -> None:
     imgui.set_next_window_pos((x, layout.menu))
     imgui.set_next_window_size((width, layout.middle_height))
-    imgui.begin(name, None, _FLAGS)
+    imgui.begin(name, None, _BEHIND)
     if len(tabs) == 1:
         tabs[0].draw(app)
     elif imgui.begin_tab_bar("pages"):

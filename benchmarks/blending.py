@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import scipy.sparse as sparse
 
+from benchmarks.frames import made_rig
 from benchmarks.harness import Table, interleaved_ms
-from benchmarks.make_faces import head, shape
 from facemorph.core.blend import Blend
 from facemorph.core.mesh import Mesh
 from facemorph.core.normals import NormalsOf
@@ -15,10 +15,8 @@ from facemorph.core.triangles import triangulated
 
 def run() -> list[Table]:
     """One table, on 27,000 vertices and 52 shapes."""
-    positions, quads, _, _ = head(27_000)
-    mesh = Mesh.from_polygons(positions.astype(np.float32), quads)
-    deltas = np.stack([(shape(positions, k) - positions).astype(np.float32) for k in range(52)])
-    return [_blending(mesh, deltas), _normals(mesh)]
+    rig = made_rig(52, 27_000)
+    return [_blending(rig.neutral, rig.deltas), _normals(rig.neutral)]
 
 
 def _blending(mesh: Mesh, deltas: np.ndarray) -> Table:

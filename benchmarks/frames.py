@@ -11,7 +11,7 @@ import numpy as np
 
 from benchmarks.bare import BareDraw
 from benchmarks.harness import Table, have, interleaved_ms, process
-from benchmarks.make_faces import head, shape, shape_names
+from benchmarks.make_faces import Head, head, shape, shape_names
 from facemorph.core.camera import Camera
 from facemorph.core.mesh import Mesh
 from facemorph.core.normals import NormalsOf
@@ -29,19 +29,25 @@ def run() -> list[Table]:
     return [_case(shapes, vertices) for shapes, vertices in CASES]
 
 
+def made_mesh(face: Head) -> Mesh:
+    """The neutral of a head: its quads, then its caps."""
+    blocks = (face.quads, face.caps)
+    sizes = np.concatenate([np.full(len(block), block.shape[1]) for block in blocks])
+    return Mesh(
+        face.positions.astype(np.float32),
+        np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
+        np.concatenate([block.ravel() for block in blocks]).astype(np.int32),
+        uvs=face.uvs.astype(np.float32),
+        corner_uvs=np.concatenate([face.uv_quads.ravel(), face.uv_caps.ravel()]).astype(np.int32),
+    )
+
+
 def made_rig(shapes: int, vertices: int) -> Rig:
     """A head with shapes of local support."""
-    positions, quads, uvs, uv_quads = head(vertices)
-    bare = Mesh.from_polygons(positions.astype(np.float32), quads)
-    mesh = Mesh(
-        bare.positions,
-        bare.polygon_starts,
-        bare.corner_vertices,
-        uvs=uvs.astype(np.float32),
-        corner_uvs=uv_quads.ravel().astype(np.int32),
-    )
+    face = head(vertices)
+    positions = face.positions
     made = {name: shape(positions, k).astype(np.float32) for k, name in enumerate(shape_names(shapes))}
-    return Rig.from_arrays(mesh, made)
+    return Rig.from_arrays(made_mesh(face), made)
 
 
 def _case(shapes: int, vertices: int) -> Table:

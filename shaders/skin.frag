@@ -48,5 +48,5 @@ void main() {
     vec3 light = diffuse_light(n, view);
     vec3 half_way = normalize(shine_direction + view);
 #endif
-    show(displayed(surface * light + highlight(n, half_way)), cover);
+    show(displayed(surface * light + highlight(surface, n, half_way)), cover);
 }

@@ -16,6 +16,7 @@ uniform vec3 shine_direction;          // where its highlight comes from
 uniform vec3 wrap;                     // how far the key reaches past the terminator; red most on skin
 uniform float gloss;                   // strength of the highlight
 uniform float sharpness;               // its exponent
+uniform float matte;                   // luminance of a colour below which it does not shine
 uniform float sheen;                   // light at grazing angles, from the rim
 uniform float recess;                  // how much of the light its surroundings keep away
 
@@ -38,6 +39,8 @@ vec3 diffuse_light(vec3 n, vec3 v) {
     return light + rim_light * (rim * sheen);
 }
 
-vec3 highlight(vec3 n, vec3 half_way) {
-    return key_light * (gloss * pow(max(dot(n, half_way), 0.0), sharpness));
+vec3 highlight(vec3 surface, vec3 n, vec3 half_way) {
+    float shine = gloss * pow(max(dot(n, half_way), 0.0), sharpness);
+    float luminance = dot(surface, vec3(0.2126, 0.7152, 0.0722));
+    return key_light * (shine * smoothstep(0.25 * matte, matte + 1e-6, luminance));
 }

@@ -19,6 +19,7 @@ class Finish:
     recess     how much light the surroundings keep away: lids from an eye, the mouth from teeth
     catches    whether its highlight is an eye's catchlight
     shade      factor on the colour, for what lies inside the mouth
+    matte      luminance of the colour below which nothing shines: hair and brows painted on skin
     """
 
     wrap: Colour
@@ -27,10 +28,11 @@ class Finish:
     sheen: float
     recess: float = 0.0
     shade: float = 1.0
+    matte: float = 0.0
     catches: bool = False
 
 
-SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6)
+SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6, matte=0.045)
 EYE = Finish(
     wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.75, shade=0.9, catches=True
 )

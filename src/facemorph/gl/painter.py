@@ -131,6 +131,7 @@ class Painter:
             "sharpness": finish.sharpness,
             "sheen": finish.sheen,
             "recess": finish.recess,
+            "matte": finish.matte,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.

@@ -1,0 +1,81 @@
+"""Make the pictures of the README in docs/: the window, an animated morph, a sheet, a heat map.
+
+    python tools/readme_pictures.py
+
+Everything is drawn by facemorph itself, off-screen; run it again when faces or window change.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from tests.ui.harness import Offscreen as Window  # noqa: E402
+
+import facemorph  # noqa: E402
+from facemorph.core.morph import eased  # noqa: E402
+from facemorph.gl import sheet  # noqa: E402
+
+DOCS = ROOT / "docs"
+FRAMES_A_WAY = 14
+HOLD_FRAMES = 5
+FRAME_MS = 50
+MORPH_SIZE = (400, 400)
+
+
+def main() -> None:
+    """All pictures, a path a line."""
+    DOCS.mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        os.environ["FACEMORPH_CONFIG_DIR"] = os.environ["FACEMORPH_CACHE_DIR"] = folder
+        window(DOCS / "window.png")
+    rig = facemorph.load("mei")
+    with facemorph.Offscreen() as screen:
+        animation(screen, rig, DOCS / "morph.webp")
+        six = sheet(screen, facemorph.load("zola"), tile=(300, 320))
+        save(DOCS / "sheet.png", six)
+        look = facemorph.Look(shading="heat")
+        heat = screen.render(rig, {"happy": 1.0}, size=(900, 560), camera="three-quarter", look=look)
+        save(DOCS / "heat.png", heat)
+
+
+def window(path: Path) -> None:
+    """The window as it stands when Happy has been picked and the slider dragged."""
+    with Window(facemorph.load("ada"), size=(1280, 800)) as screen:
+        screen.app.pose = facemorph.Pose.between("neutral", "happy", 0.75, "cosine")
+        screen.app.settings.hint_seen = True
+        screen.frames(4)
+        save(path, screen.pixels_now())
+
+
+def animation(screen: facemorph.Offscreen, rig: facemorph.Rig, path: Path) -> None:
+    """Neutral to happy, on to surprised, and back, as a WebP that loops."""
+    stops = ["neutral", "happy", "surprised", "neutral"]
+    pictures = []
+    for start, end in itertools.pairwise(stops):
+        steps = [eased(k / FRAMES_A_WAY, "cosine") for k in range(FRAMES_A_WAY)] + [1.0] * HOLD_FRAMES
+        for t in steps:
+            pose = facemorph.Pose.between(start, end, t)
+            pixels = screen.render(rig, pose, size=MORPH_SIZE, camera="20,2")
+            pictures.append(Image.fromarray(np.ascontiguousarray(pixels[..., :3])))
+    pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=FRAME_MS, loop=0, quality=82)
+    print(path.relative_to(ROOT))
+
+
+def save(path: Path, pixels: np.ndarray) -> None:
+    """Write a picture without alpha."""
+    Image.fromarray(np.ascontiguousarray(pixels[..., :3])).save(path, optimize=True)
+    print(path.relative_to(ROOT))
+
+
+if __name__ == "__main__":
+    main()

@@ -37,6 +37,7 @@ class Window:
 
     def __init__(self, size: tuple[int, int], *, maximized: bool = False, platform: str = "") -> None:
         glfw.ERROR_REPORTING = "ignore"
+        self._null = platform == "null"
         _start_glfw(platform)
         try:
             self._handle = _new_window(size, maximized, null=platform == "null")
@@ -113,6 +114,11 @@ class Window:
     def wait(self, secs: float | None) -> bool:
         """Take in events: at once for 0, else sleep until one comes or `secs` are over; True if one came."""
         began = time.monotonic()
+        if self._null and secs != 0.0:
+            # That platform has no events of its own and returns at once; here it sleeps a little.
+            time.sleep(0.02 if secs is None else min(secs, 0.02))
+            glfw.poll_events()
+            return False
         if secs is None:
             glfw.wait_events()
             return True

@@ -19,8 +19,8 @@ from facemorph.core.mesh import Mesh
 from facemorph.core.rig import FaceInfo, Rig, Shape, plain_label
 from facemorph.gl import Renderer, create_context
 from facemorph.ui import fonts, theme
-from facemorph.ui.settings import Settings
 from facemorph.ui.session import Session
+from facemorph.ui.settings import Settings
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
 

@@ -212,7 +212,9 @@ def _new_window(size: tuple[int, int], maximized: bool, *, null: bool) -> Any:
         raise GraphicsError(
             f"no window with OpenGL 3.3 can be opened: {_reason()}. facemorph doctor says more."
         )
-    glfw.set_window_size_limits(handle, 640, 420, glfw.DONT_CARE, glfw.DONT_CARE)
+    # The null platform takes "no upper limit" for a limit.
+    if not null:
+        glfw.set_window_size_limits(handle, 640, 420, glfw.DONT_CARE, glfw.DONT_CARE)
     return handle
 
 

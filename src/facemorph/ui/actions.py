@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from facemorph.core.arrays import UInt8
 from facemorph.core.morph import Curve
 from facemorph.core.picture import Shading
 from facemorph.core.pose import Pose, state_of
@@ -271,14 +272,14 @@ def _saved(app: App, path: Path) -> None:
     app.messages.tell(f"Saved {path}")
 
 
-def _failing(app: App, path: Path):  # type: ignore[no-untyped-def]
+def _failing(app: App, path: Path) -> Callable[[BaseException], None]:
     def failed(error: BaseException) -> None:
         tell_error(app, f"{path.name} was not saved", error)
 
     return failed
 
 
-def write_picture(app: App, path: Path, pixels) -> None:  # type: ignore[no-untyped-def]
+def write_picture(app: App, path: Path, pixels: UInt8) -> None:
     """Write pixels (H, W, 4) uint8 as a PNG, beside the window."""
 
     def work(progress: Progress) -> Path:

@@ -139,7 +139,7 @@ def switch(app: App, name: str, on: bool) -> bool:
 
 
 def cut(text: str, room: float) -> str:
-    """`text`, with an ellipsis in it where it is wider than `room`; its end stays: long names differ there."""
+    """`text`, with an ellipsis in it where it is wider than `room`; its end stays, where names differ."""
     if imgui.calc_text_size(text).x <= room:
         return text
     low, high = 0, len(text)

@@ -68,7 +68,8 @@ def key_of(digests: Sequence[bytes]) -> str:
 
 def digest_of(path: Path) -> bytes:
     """The digest of one file's content."""
-    digest = hashlib.blake2b(digest_size=32)
+    # Processors have instructions for SHA-256: with them it takes half of BLAKE2's time.
+    digest = hashlib.sha256()
     with path.open("rb", buffering=0) as file:
         # Large pieces: two threads that hand the interpreter to each other often are no quicker than one.
         while piece := file.read(_PIECE_BYTES):

@@ -1,32 +1,34 @@
-"""Numbers out of text, many at once: eight digits a step, in whole arrays.
+"""Numbers out of text, many at once, a column of digits a step, in whole arrays.
 
-A token (a run of characters between blanks) lies at bytes[starts[i]:ends[i]]. The eight bytes before
-any place are one 64-bit word, so eight decimal digits are checked and added up in a handful of array
-operations (the word holds the first digit in its lowest byte; pairs, then fours, then eights are
-joined: D. Lemire, "Quickly parsing eight digits", 2018). Two words make an ordinary coordinate:
-what stands before its point and what stands behind it. value = mantissa / 10^decimals is then
-correctly rounded, because both are exact float64 numbers (W. D. Clinger, "How to read floating point
-numbers accurately", 1990, its fast case). Every other token (an exponent, too many digits, or no
-number at all) goes to Python's own float() or int().
+A token (a run of characters between blanks) lies at bytes[starts[i]:ends[i]]. The last digits of all
+tokens are one array of bytes, those before them the next; pairs of columns, then fours, then eights are
+joined, each in the narrowest type that holds them, so that one instruction joins as many as can be. What
+stands before a coordinate's point and what stands behind it are two such numbers.
+value = mantissa / 10^decimals is then correctly rounded, because both are exact float64 numbers (W. D.
+Clinger, "How to read floating point numbers accurately", 1990, its fast case). Every other token (an
+exponent, too many digits, or no number at all) goes to Python's own float() or int().
 """
 
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from facemorph.core.arrays import Float64, Int64, UInt8
+from facemorph.core.arrays import Float64, Int32, Int64, UInt8
+
+_Bool = NDArray[np.bool_]
+_Column = NDArray[Any]
 
 PAD = 16
-"""Blank bytes before and after a text, so that eight bytes before any place can be loaded."""
+"""Blank bytes before and after a text, so that the bytes before any place can be loaded."""
 
-_UInt64 = NDArray[np.uint64]
-_ZEROS = np.uint64(0x3030303030303030)
-_OVER_NINE = np.uint64(0x7676767676767676)
-_HIGH_BITS = np.uint64(0x8080808080808080)
-_KEEP_LAST = np.array([(1 << 64) - (1 << (8 * (8 - n))) for n in range(9)], np.uint64)
+_AT_ONCE = 8
+"""Most digits of one step: 99,999,999 fits 32 bits."""
+
+_JOINS = ((10, np.uint8), (100, np.uint16), (10_000, np.int32))
 _POWERS = 10 ** np.arange(19, dtype=np.int64)
 _FLOAT_POWERS = 10.0 ** np.arange(19)
 _EXACT = 1 << 53
@@ -36,13 +38,11 @@ _INTEGER = re.compile(rb"[+-]?[0-9]+")
 
 
 class PaddedText:
-    """Bytes with `PAD` newlines around them: `bytes` (n,) uint8, and `words`, the 8 bytes from each place."""
+    """Bytes with `PAD` newlines around them; `bytes` (n,) uint8 are the same."""
 
     def __init__(self, padded: bytes) -> None:
         self.data = padded
         self.bytes: UInt8 = np.frombuffer(padded, np.uint8)
-        # Loads that are not aligned: aligned ones, put together by shifts, took twice the time.
-        self.words: _UInt64 = np.ndarray((len(padded) - 7,), "<u8", buffer=padded, strides=(1,))
 
     def token(self, start: int, end: int) -> bytes:
         """The bytes of one token."""
@@ -69,7 +69,7 @@ def floats(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Float64, Int64
     if values is None:
         whole_length -= first == ord("+")
         values, rest = _mixed_floats(text, ends, dot, whole_length, np.maximum(decimals, 0))
-    np.negative(values, out=values, where=negative)
+    np.copysign(values, 0.5 - negative, out=values)
     return values, _read_singly(text, starts, ends, values, rest)
 
 
@@ -85,13 +85,12 @@ def _uniform_floats(
         return None
     whole, whole_wrong = _digits(text, dot, whole_length)
     fraction, fraction_wrong = _digits(text, ends, count)
-    whole_wrong |= fraction_wrong
-    if whole_wrong.any():
+    if whole_wrong.any() or fraction_wrong.any():
         return None
-    whole *= _POWERS[count]
-    whole += fraction
-    sizes: Float64 = whole / _FLOAT_POWERS[count]
-    return sizes
+    mantissa: Float64 = whole * _FLOAT_POWERS[count]
+    mantissa += fraction
+    mantissa /= _FLOAT_POWERS[count]
+    return mantissa
 
 
 def _mixed_floats(
@@ -99,18 +98,18 @@ def _mixed_floats(
 ) -> tuple[Float64, Int64]:
     """The sizes of numbers of any form, and the indices of those that must be read singly."""
     digits = whole_length + decimals
-    fits = (whole_length >= 0) & (whole_length <= 8) & (decimals <= 16) & (digits > 0) & (digits <= 18)
+    fits = (whole_length >= 0) & (whole_length <= _AT_ONCE) & (decimals <= 16) & (digits > 0) & (digits <= 18)
     decimals = np.where(fits, decimals, 0)
     whole, wrong = _digits(text, dot, np.where(fits, whole_length, 0))
-    mantissa, fraction_wrong = _digits(text, ends, np.minimum(decimals, 8))
-    wrong |= fraction_wrong
-    long = np.flatnonzero(decimals > 8)
+    behind, behind_wrong = _digits(text, ends, np.minimum(decimals, _AT_ONCE))
+    mantissa = whole * _POWERS[decimals] + behind
+    wrong |= behind_wrong
+    long = np.flatnonzero(decimals > _AT_ONCE)
     if len(long):
-        front, front_wrong = _digits(text, ends[long] - 8, decimals[long] - 8)
-        mantissa[long] += front * _POWERS[8]
+        front, front_wrong = _digits(text, ends[long] - _AT_ONCE, decimals[long] - _AT_ONCE)
+        mantissa[long] += front * _POWERS[_AT_ONCE]
         wrong[long] |= front_wrong
-    mantissa += whole * _POWERS[decimals]
-    fits &= (wrong == 0) & (mantissa <= _EXACT)
+    fits &= ~wrong & (mantissa <= _EXACT)
     return mantissa / _FLOAT_POWERS[decimals], np.flatnonzero(~fits)
 
 
@@ -121,17 +120,18 @@ def integers(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Int64, Int64
     """
     length = ends - starts
     first = text.bytes[starts]
+    plain = len(starts) and 0 < int(length.min()) <= int(length.max()) <= _AT_ONCE
     # Digits are the bytes from "0" on; signs lie below them.
-    if len(starts) and int(first.min()) >= ord("0") and int(length.max()) <= 8 and int(length.min()) > 0:
-        values, wrong = _digits(text, ends, length)
+    if plain and int(first.min()) >= ord("0"):
+        sizes, wrong = _digits(text, ends, length)
         if not wrong.any():
-            return values, np.zeros(0, np.int64)
+            return sizes.astype(np.int64), np.zeros(0, np.int64)
     negative = first == ord("-")
     length -= negative | (first == ord("+"))
-    fits = (length > 0) & (length <= 8)
-    values, wrong = _digits(text, ends, np.where(fits, length, 0))
-    fits &= wrong == 0
-    np.negative(values, out=values, where=negative)
+    fits = (length > 0) & (length <= _AT_ONCE)
+    sizes, wrong = _digits(text, ends, np.where(fits, length, 0))
+    fits &= ~wrong
+    values: Int64 = np.where(negative, -sizes, sizes).astype(np.int64)
     bad = []
     for i in np.flatnonzero(~fits):
         token = text.token(starts[i], ends[i])
@@ -161,23 +161,34 @@ def _points(text: PaddedText, starts: Int64, ends: Int64) -> Int64:
     return np.where((found >= starts) & (found < ends), found, ends)
 
 
-def _digits(text: PaddedText, ends: Int64, lengths: Int64 | int) -> tuple[Int64, _UInt64]:
-    """The numbers in the `lengths` (0 to 8) digits before `ends`; and not 0 where there was a non-digit."""
-    word = text.words[ends - 8]
-    word ^= _ZEROS
-    word &= _KEEP_LAST[lengths]
-    wrong = word + _OVER_NINE
-    wrong |= word
-    wrong &= _HIGH_BITS
-    word *= np.uint64(10 * 256 + 1)
-    word >>= np.uint64(8)
-    word &= np.uint64(0x00FF00FF00FF00FF)
-    word *= np.uint64(100 * 65_536 + 1)
-    word >>= np.uint64(16)
-    word &= np.uint64(0x0000FFFF0000FFFF)
-    word *= np.uint64(10_000 * (1 << 32) + 1)
-    word >>= np.uint64(32)
-    return word.view(np.int64), wrong
+def _digits(text: PaddedText, ends: Int64, lengths: Int64 | int) -> tuple[Int32, _Bool]:
+    """The numbers in the `lengths` (0 to 8) digits before `ends`; and where there was a non-digit."""
+    most = int(np.max(lengths, initial=0))
+    uneven = None if isinstance(lengths, int) else lengths.astype(np.uint8)
+    highest = np.zeros(len(ends), np.uint8)
+    before = ends - PAD
+    columns: list[_Column] = []
+    for i in range(1, most + 1):
+        column = text.bytes[PAD - i :][before]
+        column -= np.uint8(ord("0"))
+        if uneven is not None:
+            column *= uneven >= i
+        np.maximum(highest, column, out=highest)
+        columns.append(column)
+    return _joined(columns or [highest]), highest > 9
+
+
+def _joined(columns: list[_Column]) -> Int32:
+    """The numbers whose digits are these columns, the last digits first."""
+    for base, dtype in _JOINS:
+        joined = columns[::2]
+        for i, column in enumerate(columns[1::2]):
+            high: _Column = column.astype(dtype)
+            high *= base
+            high += joined[i]
+            joined[i] = high
+        columns = joined
+    return columns[0].astype(np.int32)
 
 
 def _read_singly(text: PaddedText, starts: Int64, ends: Int64, values: Float64, which: Int64) -> Int64:

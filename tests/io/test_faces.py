@@ -96,9 +96,19 @@ def test_polygons_may_be_written_in_another_way(tmp_path: Path, mine: str, their
     assert load_rig(tmp_path).deltas[0].tolist() == [[0, 0, 1], [0, 0, 0], [0, 0, 0], [0, 0, 0]]
 
 
+@pytest.mark.parametrize("chunk", [1 << 18, 40, 20, 16, 1])
 @pytest.mark.parametrize(
     "text",
     [
+        "v 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 2\nf 1 2 3 4\n",
+        "# C:\\faces\\a.max\nv 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 2\nf 1 2 3 4\n",
+        "v 0 0 1\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 2\r\nf 1 2 3 4\n",
+        "\ufeffv 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 2\nf 1 2 3 4\n",
+        "v 0 0 1\nv 1 0 0\n\ufeffv 8 8 8\nv 1 1 0\nv 0 1 2\nf 1 2 3 4\n",
+        "v 0 0 1\nv 1 0 0\nv 1 1 \\\n0\nv 0 1 2\nf 1 2 3 4\n",
+        "v 0 0 1\nv 1 0 0\n# on \\\nv 1 1 0\nv 0 1 2\nf 1 2 3 4\n",
+        "v 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 2\nvt 0 0\nvt 0 1\nf 1 2 3 4\n",
+        "v 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 2\x00\nf 1 2 3 4\n",
         "v 0 0 1\nv 1 0 0\nv 1 1 0\n\\\nv 0 1 0\nf 1 2 3 4\n",
         "v 0 0 1\nv 1 0 0\nv 1 1 0\nf 1 2 3\nv 0 1 0\nf 1 2 3 4\n",
         "v 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 9 9 9\nf 1 2 3 4\n",
@@ -109,7 +119,10 @@ def test_polygons_may_be_written_in_another_way(tmp_path: Path, mine: str, their
         "f 1 2 3\nv 0 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n",
     ],
 )
-def test_skipping_equal_faces_does_not_change_what_is_read(tmp_path: Path, monkeypatch, text: str) -> None:
+def test_skipping_equal_faces_does_not_change_what_is_read(
+    tmp_path: Path, monkeypatch, text: str, chunk: int
+) -> None:
+    monkeypatch.setattr("facemorph.io.face_set.CHUNK_BYTES", chunk)
     written(tmp_path, SQUARE, "neutral.obj")
     written(tmp_path, text, "a.obj")
 

@@ -56,7 +56,7 @@ def test_any_hand_is_read_exactly(seed: int) -> None:
 @pytest.mark.parametrize("chunk", [1, 7, 64, 300])
 @pytest.mark.parametrize("seed", range(20))
 def test_where_the_text_is_cut_into_chunks_does_not_matter(monkeypatch, chunk: int, seed: int) -> None:
-    monkeypatch.setattr(obj_text, "_CHUNK_BYTES", chunk)
+    monkeypatch.setattr(obj_text, "CHUNK_BYTES", chunk)
     text, truth = odd_obj(1000 + seed)
     assert_says(read(text), truth)
 

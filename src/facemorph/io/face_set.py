@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections import deque
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
+from typing import BinaryIO
 
 import numpy as np
 
@@ -15,10 +17,11 @@ from facemorph.core.arrays import Float32
 from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
-from facemorph.errors import CorrespondenceError, FaceFolderError
+from facemorph.errors import CorrespondenceError, FaceFolderError, MeshFileError
 from facemorph.io import cache
-from facemorph.io.limits import DELTA_BYTES, SHAPES, plain_size, read_bytes
+from facemorph.io.limits import DELTA_BYTES, MESH_BYTES, SHAPES, plain_size, read_bytes
 from facemorph.io.obj_read import ObjFile, parse_obj, parse_positions, with_materials
+from facemorph.io.obj_text import BOM, CHUNK_BYTES
 from facemorph.io.read import read_mesh
 
 HINTS: Mapping[str, str] = MappingProxyType(
@@ -32,6 +35,7 @@ HINTS: Mapping[str, str] = MappingProxyType(
 
 _AT_ONCE = 2
 _LINE_END = 1_024
+_COMPARED_BYTES = 1 << 16
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,28 +158,64 @@ class _Neutral:
 
     def positions_of(self, name: str, path: Path) -> Float32:
         """The positions (V, 3) of a shape. Raises `CorrespondenceError` where they are not the neutral's."""
-        if path.suffix.lower() != ".obj":
-            mesh = read_mesh(path)
-        else:
-            data = read_bytes(path)
-            positions = self._before_faces(path, data)
-            if positions is not None and len(positions) == self.file.mesh.vertex_count:
-                return positions
-            mesh = parse_obj(path, data).mesh
+        positions = self._before_faces(path)
+        if positions is not None and len(positions) == self.file.mesh.vertex_count:
+            return positions
+        mesh = read_mesh(path)
         unlike = difference(self.file.mesh, mesh)
         if unlike is not None:
             hint = HINTS[unlike.cause].replace("FOLDER", str(path.parent))
             raise CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
         return mesh.positions
 
-    def _before_faces(self, path: Path, data: bytes) -> Float32 | None:
+    def _before_faces(self, path: Path) -> Float32 | None:
         """The positions of an OBJ that ends in the neutral's faces; None where it must be read whole.
 
         The neutral's block follows all of its vertices, so after as many it means the same polygons.
         """
-        if not self._faces or not data.endswith(self._faces):
+        if not self._faces or path.suffix.lower() != ".obj" or not path.is_file():
             return None
-        head = data[: len(data) - len(self._faces)]
-        if not head.endswith(b"\n") or head[-_LINE_END:].rstrip().endswith(b"\\"):
+        try:
+            with path.open("rb") as file:
+                before = os.fstat(file.fileno()).st_size - len(self._faces)
+                if not 0 < before <= MESH_BYTES or not _goes_on_with(file, before, self._faces):
+                    return None
+                pieces = [parse_positions(path, piece) for piece in _pieces(file, before)]
+        except (OSError, _OddTextError, MeshFileError):
+            # Read whole, it either is good after all or gives the error with its place in the file.
             return None
-        return parse_positions(path, head)
+        found = [piece for piece in pieces if piece is not None]
+        return np.concatenate(found) if found and len(found) == len(pieces) else None
+
+
+class _OddTextError(Exception):
+    """Text that cannot be cut into pieces at line ends without changing what it says."""
+
+
+def _goes_on_with(file: BinaryIO, place: int, content: bytes) -> bool:
+    """Whether a file holds just `content` from `place` on."""
+    file.seek(place)
+    starts = range(0, len(content), _COMPARED_BYTES)
+    same = all(file.read(_COMPARED_BYTES) == content[i : i + _COMPARED_BYTES] for i in starts)
+    return same and not file.read(1)
+
+
+def _pieces(file: BinaryIO, size: int) -> Iterator[bytes]:
+    """The first `size` bytes of an OBJ as pieces of whole lines. Raises `_OddTextError`.
+
+    Small pieces: the memory of each is used again for the next, while a whole file's is asked of the
+    system, page by page, every time.
+    """
+    place = 0
+    while place < size:
+        file.seek(place)
+        piece = file.read(min(CHUNK_BYTES, size - place))
+        end = piece.rfind(b"\n") + 1
+        last = place + len(piece) >= size
+        if not end or (last and end < len(piece)) or (place and piece.startswith(BOM)):
+            raise _OddTextError
+        piece = piece[:end]
+        if piece[-_LINE_END:].rstrip().endswith(b"\\"):
+            raise _OddTextError
+        yield piece
+        place += end

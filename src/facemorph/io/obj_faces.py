@@ -31,19 +31,20 @@ class Faces:
     corners: Int32
 
 
-def read_faces(
-    text: ObjText, lines: Lines, slashes: Int64, counts_before: tuple[int, int, int], problems: Problems
-) -> Faces:
+def read_faces(text: ObjText, lines: Lines, counts_before: tuple[int, int, int], problems: Problems) -> Faces:
     """The faces among `lines`.
 
-    slashes         every "/" between the lines' first and last byte, ascending
     counts_before   v, vt and vn lines in the file before this range, for indices that count back
     """
     chosen = lines.of(Kind.FACE)
+    if not len(chosen):
+        return Faces(np.zeros(0, np.int32), np.zeros((3, 0), np.int32))
     sizes = lines.count[chosen] - 1
     _check_sizes(lines, chosen, sizes, problems)
     starts, ends = tokens_of(lines, chosen)
     corners = np.full((3, len(starts)), -1, np.int32)
+    low, high = (int(starts[0]), int(ends[-1])) if len(starts) else (0, 0)
+    slashes = np.flatnonzero(text.bytes[low:high] == ord("/")) + low
     for part, (begin, end) in enumerate(_parts(slashes, starts, ends)):
         # A corner always has a vertex; an empty one is found to be no number.
         present = np.flatnonzero(end > begin) if part else np.arange(len(begin))

@@ -118,8 +118,7 @@ class _Scan:
         numbers = Numbers(self.text, lines, problems)
         positions, colours = numbers.vertices()
         uvs, normals = numbers.uvs(), numbers.normals()
-        slashes = np.flatnonzero(self.text.bytes[begin:end] == ord("/")) + begin
-        faces = read_faces(self.text, lines, slashes, self.counts, problems)
+        faces = read_faces(self.text, lines, self.counts, problems)
         problems.raise_first()
         self._add_names(lines)
         self.positions.append(positions)

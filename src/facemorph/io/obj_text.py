@@ -19,10 +19,12 @@ from facemorph.errors import MeshFileError
 from facemorph.io.decimals import PAD, PaddedText
 from facemorph.io.limits import LINE_BYTES, plain_size
 
-_CHUNK_BYTES = 1 << 19
+CHUNK_BYTES = 1 << 18
+"""So much of a text is taken at a time: its arrays fit the processor's cache, and reuse their memory."""
+
+BOM = b"\xef\xbb\xbf"
 _FIRST = np.zeros(1, np.int64)
 _PADDING = b"\n" * PAD
-_BOM = b"\xef\xbb\xbf"
 _LONE_RETURN = re.compile(rb"\r(?!\n)")
 _COMMENT_OR_CONTINUED = re.compile(rb"(?<!\S)#[^\n]*|\\[ \t]*(?:\n|\Z)")
 
@@ -66,7 +68,7 @@ class ObjText(PaddedText):
         """Ranges of whole lines that cover the text. Raises `MeshFileError` on an endless line."""
         begin = self.begin
         while begin < self.end:
-            end = min(begin + _CHUNK_BYTES, self.end)
+            end = min(begin + CHUNK_BYTES, self.end)
             if end < self.end:
                 end = self.data.rfind(b"\n", begin, end) + 1 or self._end_of_line(begin)
             yield begin, end
@@ -115,7 +117,7 @@ def without_uvs_and_normals(text: ObjText, begin: int, end: int) -> tuple[int, i
 def lines_between(text: ObjText, begin: int, end: int) -> Lines:
     """The lines of a range that begins and ends at line ends."""
     # A last line without an end is ended by the padding.
-    window = text.bytes[begin - 1 : end + (end == text.end)]
+    window = text.bytes[begin - 1 : end + (end == text.end and text.bytes[end - 1] != ord("\n"))]
     blanks = np.flatnonzero(window <= ord(" ")) + (begin - 1)
     starts, ends = blanks[:-1] + 1, blanks[1:]
     filled = ends > starts
@@ -123,7 +125,7 @@ def lines_between(text: ObjText, begin: int, end: int) -> Lines:
     if not filled.all():
         # Where blanks follow blanks, a token is the last of its line if any of them ends the line.
         token = np.cumsum(filled) - 1
-        after = np.unique(token[last_of_line & (token >= 0)])
+        after = token[last_of_line & (token >= 0)]
         starts, ends = starts[filled], ends[filled]
         last_of_line = np.zeros(len(starts), bool)
         last_of_line[after] = True
@@ -182,8 +184,8 @@ def _end_at_comments(text: ObjText, starts: Int64, first: Int64, count: Int64) -
 
 def _with_line_ends(data: bytes) -> bytes:
     """The same length, with lines that end in "\\n" alone and no BOM."""
-    if data.startswith(_BOM):
-        data = b"   " + data[len(_BOM) :]
+    if data.startswith(BOM):
+        data = b"   " + data[len(BOM) :]
     if b"\r" in data:
         data = _LONE_RETURN.sub(b"\n", data.replace(b"\r\n", b" \n"))
     return data

@@ -8,7 +8,15 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).resolve().parent.parent / "src" / "facemorph"
-LAYERS = [{"cli"}, {"ui"}, {"api"}, {"gl", "io"}, {"core"}, {"errors", "resources", "__init__", "__main__"}]
+LAYERS = [
+    {"cli"},
+    {"ui"},
+    {"api"},
+    {"gl", "io"},
+    {"deform"},
+    {"core"},
+    {"errors", "resources", "__init__", "__main__"},
+]
 RANK = {name: rank for rank, names in enumerate(LAYERS) for name in names}
 ONLY_IN = {
     "moderngl": {"gl"},
@@ -17,7 +25,7 @@ ONLY_IN = {
     "glfw": {"ui"},
     "trimesh": {"io"},
     "PIL": {"gl", "io"},
-    "scipy": {"io"},
+    "scipy": {"deform"},
 }
 # The package's front door looks at every layer, lazily.
 FREE = {"__init__", "__main__"}

@@ -7,6 +7,7 @@
       CorrespondenceError           a shape that does not match its neutral
       FaceFolderError               a folder (or set of files) that is not a face
       UnknownNameError              a shape, expression, face, unit or option nobody knows
+      DeformError                   controls of a method that make no deformation: coincident points, ...
       PoseError                     a weight or position on the slider that is no usable number
       OptionError                   an option whose value cannot be used
       OutputError                   a file that cannot be written, or would overwrite something
@@ -76,6 +77,10 @@ class UnknownNameError(FacemorphError):
 
 class PoseError(FacemorphError):
     """A weight, or a position on the slider, that is no usable number."""
+
+
+class DeformError(FacemorphError):
+    """Controls of a method that make no deformation: coincident control points, a singular system."""
 
 
 class OptionError(FacemorphError):

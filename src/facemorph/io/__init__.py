@@ -2,6 +2,7 @@
 
 from facemorph.io.check import check_folder
 from facemorph.io.face_toml import read_face_info
+from facemorph.io.handles_file import read_handles, write_handles
 from facemorph.io.load import load_rig
 from facemorph.io.obj_write import write_obj
 from facemorph.io.png import write_png
@@ -15,8 +16,10 @@ __all__ = [
     "check_folder",
     "load_rig",
     "read_face_info",
+    "read_handles",
     "read_mesh",
     "repair_folder",
+    "write_handles",
     "write_obj",
     "write_png",
 ]

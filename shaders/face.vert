@@ -1,9 +1,6 @@
 #version 330 core
 // Every pass draws the same morphed buffer: a frame costs what a static mesh costs.
 
-#ifdef COLOURED
-#include "lib/colour.glsl"
-#endif
 #ifdef LIT
 #include "lib/light.glsl"
 #endif
@@ -31,13 +28,28 @@ out vec2 surface_uv;
 #endif
 
 #ifdef COLOURED
-in vec3 colour;
+in vec3 colour;                        // sRGB, as a texture's
 out vec3 surface_colour;
 #endif
 
+#ifdef PARTNER_UV
+in vec2 partner_uv;
+out vec2 surface_partner_uv;
+#endif
+
+#ifdef PARTNER_COLOURED
+in vec3 partner_colour;
+out vec3 surface_partner_colour;
+#endif
+
 #ifdef HEAT
-in vec3 neutral;
+in vec3 reference;                     // where displacements are measured from
 out float displacement;
+#endif
+
+#ifdef GLOW
+in float glow;
+out float surface_glow;
 #endif
 
 #ifdef HEM
@@ -62,10 +74,19 @@ void main() {
     surface_uv = uv;
 #endif
 #ifdef COLOURED
-    surface_colour = linear_from_srgb(colour);
+    surface_colour = colour;
+#endif
+#ifdef PARTNER_UV
+    surface_partner_uv = partner_uv;
+#endif
+#ifdef PARTNER_COLOURED
+    surface_partner_colour = partner_colour;
 #endif
 #ifdef HEAT
-    displacement = distance(position, neutral);
+    displacement = distance(position, reference);
+#endif
+#ifdef GLOW
+    surface_glow = glow;
 #endif
 #ifdef HEM
     surface_kept = kept;

@@ -1,5 +1,5 @@
 #version 330 core
-// Distance from neutral as colour; a little shading stays, so that the form can be read.
+// Distance from neutral, or from another surface, as colour; a little shading stays, so that the form can be read.
 #include "lib/surface.glsl"
 
 uniform sampler2D ramp;                // the colours from 0 to the map's end

@@ -1,11 +1,11 @@
 #version 330 core
 // Textured skin, eyes, teeth and the rest; clay is the same light on one grey.
 #include "lib/surface.glsl"
-#include "lib/colour.glsl"
+#include "lib/albedo.glsl"
 #include "lib/light.glsl"
-
-uniform vec3 albedo;
-uniform float opacity;
+#ifdef GLOW
+#include "lib/glow.glsl"
+#endif
 
 #ifdef LIT_BY_VERTEX
 in vec3 surface_light;
@@ -14,30 +14,12 @@ in vec3 surface_half;
 in vec3 surface_view;
 #endif
 
-#ifdef TEXTURED
-uniform sampler2D albedo_texture;
-in vec2 surface_uv;
-#endif
-
-#ifdef COLOURED
-in vec3 surface_colour;
-#endif
-
 void main() {
-    vec3 surface = albedo;
-    float cover = opacity;
-#ifdef TEXTURED
-    vec4 texel = texture(albedo_texture, surface_uv);
-    surface *= linear_from_srgb(texel.rgb);
+    vec4 paint = painted();
 #ifdef CUTOUT
-    cover *= texel.a;
-    if (cover < 0.03) {
+    if (paint.a < 0.03) {
         discard;
     }
-#endif
-#endif
-#ifdef COLOURED
-    surface *= surface_colour;
 #endif
     vec3 n = normalize(surface_normal);
 #ifdef LIT_BY_VERTEX
@@ -48,5 +30,9 @@ void main() {
     vec3 light = diffuse_light(n, view);
     vec3 half_way = normalize(shine_direction + view);
 #endif
-    show(displayed(surface * light + highlight(surface, n, half_way)), cover);
+    vec3 seen = paint.rgb * light + highlight(paint.rgb, n, half_way);
+#ifdef GLOW
+    seen = lit_up(seen, light);
+#endif
+    show(displayed(seen), paint.a);
 }

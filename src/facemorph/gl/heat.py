@@ -27,7 +27,7 @@ _NICE = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 class Legend:
     """What a heat map's colours mean, for whoever draws it.
 
-    title    what is measured
+    title    what is measured: "Displacement" from neutral, or "Difference" from another surface
     unit     "mm", or "model units" where the face names no unit
     ticks    (place 0..1 along the bar, text) from the low end to the high
     colours  (n, 3) uint8 sRGB from the low end to the high
@@ -41,7 +41,10 @@ class Legend:
     high: float
 
 
-def heat_legend(high: float, unit: str) -> Legend:
+DISPLACEMENT, DIFFERENCE = "Displacement", "Difference"
+
+
+def heat_legend(high: float, unit: str, title: str = DISPLACEMENT) -> Legend:
     """The legend of a map that ends at `high` model units, for a face measured in `unit` ("cm", or "")."""
     scale = _MM_PER.get(unit.casefold(), 1.0)
     shown_unit = "mm" if unit.casefold() in _MM_PER else "model units"
@@ -49,7 +52,7 @@ def heat_legend(high: float, unit: str) -> Legend:
     step = _tick_step(end)
     values = [step * i for i in range(int(end / step + 1e-6) + 1)]
     ticks = tuple((value / end, _plain(value, step)) for value in values)
-    return Legend("Displacement", shown_unit, ticks, ramp(), high)
+    return Legend(title, shown_unit, ticks, ramp(), high)
 
 
 def nice_above(value: float) -> float:
@@ -78,9 +81,9 @@ def ramp(count: int = 256) -> UInt8:
     return (_srgb_from_oklab(lab) * 255.0 + 0.5).astype(np.uint8)
 
 
-def displacements(positions: Float32, neutral: Float32) -> Float32:
-    """How far each vertex is from neutral, (V,), for positions and neutral (V, 3)."""
-    moved = positions - neutral
+def displacements(positions: Float32, reference: Float32) -> Float32:
+    """How far each vertex is from its place in `reference`, (V,), for positions and reference (V, 3)."""
+    moved = positions - reference
     lengths: Float32 = np.sqrt(np.einsum("vi,vi->v", moved, moved))
     return lengths
 

@@ -59,6 +59,8 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
 )
 
 CLAY_COLOUR: Colour = (0.43, 0.41, 0.385)
+# What a lit-up region is tinted with, linear: the interface's accent.
+GLOW_COLOUR: Colour = (0.06, 0.42, 0.66)
 # A mesh without any material: unpainted, but warm.
 PLAIN = Material("", diffuse=(0.50, 0.375, 0.305))
 

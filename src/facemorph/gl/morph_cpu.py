@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from facemorph.core.arrays import Float32
 from facemorph.core.blend import Blend
 from facemorph.core.normals import NormalsOf
 from facemorph.core.pose import Pose
@@ -21,16 +22,22 @@ class CpuMorph:
 
     def __init__(self, ctx: moderngl.Context, rig: Rig, surface: Surface, blend: Blend) -> None:
         self._rig = rig
-        self._surface = surface
         self._blend = blend
         self._normals_of = NormalsOf(surface.triangles.vertices, rig.neutral.vertex_count)
         self._both = np.empty((rig.neutral.vertex_count, 6), np.float32)
+        self.bind(surface)
+
+    def bind(self, surface: Surface) -> None:
+        """Fill `surface` from now on, whose vertices are the same mesh's, split otherwise."""
+        self._surface = surface
         self._drawn = np.empty((surface.drawn_count, 6), np.float32)
         self._copies = surface.position_of.astype(np.intp)
 
-    def update(self, pose: Pose, *, exactly: bool) -> None:
-        """Morph to `pose`; `exactly` makes the result independent of the poses before."""
+    def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
+        """Morph to `pose` plus `offsets` (V, 3); `exactly` makes the result independent of poses before."""
         positions = self._blend(pose.coefficients(self._rig.names), exactly=exactly)
+        if offsets is not None:
+            positions = positions + offsets
         self._both[:, :3] = positions
         self._both[:, 3:] = self._normals_of(positions)
         if len(self._drawn):

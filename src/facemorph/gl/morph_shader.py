@@ -47,7 +47,7 @@ class ShaderMorph:
     ) -> None:
         self._ctx = ctx
         self._rig = rig
-        self._surface = surface
+        self._offsets: Float32 | None = None
         self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
         self._count = rig.neutral.vertex_count
         self._size = grid_size(self._count, self._largest)
@@ -56,7 +56,7 @@ class ShaderMorph:
         self._listed: tuple[bytes, ...] = ()
         self._shapes: list[Float32] = []
         self.passes = 0
-        self._make_textures(rig)
+        self._make_textures(rig, surface.triangles.vertices)
         self._make_arrays(programs, surface)
 
     def _layer_count(self, asked: int | None) -> int:
@@ -64,12 +64,12 @@ class ShaderMorph:
         possible = min(int(self._ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]), MEMORY // a_layer)
         return max(min(possible, len(self._rig.shapes), asked or possible), 1)
 
-    def _make_textures(self, rig: Rig) -> None:
+    def _make_textures(self, rig: Rig, triangles: Int32) -> None:
         ctx, size = self._ctx, self._size
         nearest = (ctx.NEAREST, ctx.NEAREST)
-        neutral = np.ones((self._count, 4), np.float32)
-        neutral[:, :3] = rig.neutral.positions
-        self._neutral = list_texture(ctx, neutral, "f4", self._largest)
+        self._base = np.ones((self._count, 4), np.float32)
+        self._base[:, :3] = rig.neutral.positions
+        self._neutral = list_texture(ctx, self._base, "f4", self._largest)
         self._results = [ctx.texture(size, 4, dtype="f4") for _ in range(2)]
         self._targets = [ctx.framebuffer([texture]) for texture in self._results]
         self._deltas = ctx.texture_array((*size, self._layers), 3, dtype="f4")
@@ -77,7 +77,7 @@ class ShaderMorph:
         self._deltas.filter = nearest
         for texture in (*self._results, self._active):
             texture.filter = nearest
-        rings, corners = vertex_rings(self._surface.triangles.vertices, self._count)
+        rings, corners = vertex_rings(triangles, self._count)
         self._rings = list_texture(ctx, rings, "i4", self._largest)
         self._ring_corners = list_texture(ctx, corners, "i4", self._largest)
 
@@ -85,17 +85,34 @@ class ShaderMorph:
         self._sum = programs.get("morph_positions.vert", "morph_positions.frag")
         self._fill = programs.get("morph_drawn.vert", capture=("position", "normal"))
         self._points = self._ctx.vertex_array(self._sum, [])
-        drawn = np.ascontiguousarray(surface.position_of, np.int32)
-        self._position_of = self._ctx.buffer(drawn.tobytes() or b"\0" * 4)
-        self._copies = self._ctx.vertex_array(self._fill, [(self._position_of, "1i", "position_of")])
+        self._copies: moderngl.VertexArray | None = None
+        self._position_of: moderngl.Buffer | None = None
+        self.bind(surface)
         _set(self._sum, base_positions=_BASE, deltas=_DELTAS, active_shapes=_ACTIVE, grid_size=self._size)
         span = self._rig.neutral.diagonal or 1.0
         _set(
             self._fill, positions=_POSITIONS, rings=_RINGS, ring_corners=_RING_CORNERS, per_length=1.0 / span
         )
 
-    def update(self, pose: Pose, *, exactly: bool) -> None:
-        """Morph to `pose`; the sum is always made in full here, so `exactly` changes nothing."""
+    def bind(self, surface: Surface) -> None:
+        """Fill `surface` from now on, whose vertices are the same mesh's, split otherwise."""
+        self._unbind()
+        self._surface = surface
+        drawn = np.ascontiguousarray(surface.position_of, np.int32)
+        self._position_of = self._ctx.buffer(drawn.tobytes() or b"\0" * 4)
+        self._copies = self._ctx.vertex_array(self._fill, [(self._position_of, "1i", "position_of")])
+
+    def _unbind(self) -> None:
+        for held in (self._copies, self._position_of):
+            if held is not None:
+                held.release()
+
+    def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
+        """Morph to `pose` plus `offsets` (V, 3).
+
+        The sum is always made in full here, so `exactly` changes nothing.
+        """
+        self._start_from(offsets)
         self._list_shapes(pose)
         _set(self._sum, t=float(pose.t), curve=_CURVES[pose.curve])
         self._ctx.enable_only(self._ctx.NOTHING)
@@ -103,6 +120,15 @@ class ShaderMorph:
         for step in range(max(-(-len(self._shapes) // self._layers), 1)):
             base = self._add_pass(base, step)
         self._fill_drawn(base)
+
+    def _start_from(self, offsets: Float32 | None) -> None:
+        """The texture where the sum starts: neutral, plus the offsets where there are any."""
+        if offsets is self._offsets:
+            return
+        neutral = self._rig.neutral.positions
+        self._base[:, :3] = neutral if offsets is None else neutral + offsets
+        self._neutral.write(padded(self._base, self._size))
+        self._offsets = offsets
 
     def _list_shapes(self, pose: Pose) -> None:
         """Which shapes are active and with which weights, (A, 4) rows: source, target, added, index."""
@@ -164,20 +190,20 @@ class ShaderMorph:
         other = self._targets[0] if positions is not self._results[0] else self._targets[1]
         other.use()
         if self._surface.drawn_count:
+            assert self._copies is not None
             self._copies.transform(
                 self._surface.morphed, self._ctx.POINTS, vertices=self._surface.drawn_count
             )
 
     def release(self) -> None:
         """Give back what the context holds."""
-        for array in (self._points, self._copies):
-            array.release()
+        self._unbind()
+        self._points.release()
         for target in self._targets:
             target.release()
         for texture in (*self._results, self._neutral, self._active, self._rings, self._ring_corners):
             texture.release()
         self._deltas.release()
-        self._position_of.release()
 
 
 def vertex_rings(triangles: Int32, vertex_count: int) -> tuple[Int32, Int32]:

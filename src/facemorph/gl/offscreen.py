@@ -11,7 +11,8 @@ from facemorph.core.arrays import UInt8
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look, checked_size
 from facemorph.core.pose import Pose
-from facemorph.core.rig import Rig, as_pose
+from facemorph.core.rig import Rig
+from facemorph.core.scene import Scene
 from facemorph.gl.context import create_context
 from facemorph.gl.legend import with_legend
 from facemorph.gl.renderer import MorphPath, Renderer
@@ -38,19 +39,20 @@ class Offscreen:
     def render(
         self,
         rig: Rig,
-        pose: Pose | Mapping[str, float] | None = None,
+        pose: Scene | Pose | Mapping[str, float] | None = None,
         *,
         size: tuple[int, int] = (1280, 800),
         camera: Camera | str = "front",
         look: Look | None = None,
         legend: bool = True,
     ) -> UInt8:
-        """A picture as (H, W, 4) uint8 sRGB with straight alpha, top row first; `size` is (W, H) pixels.
+        """A picture of `rig` as (H, W, 4) uint8 sRGB with straight alpha, top row first; `size` is (W, H).
 
+        pose     a `Pose`, a whole `Scene`, or weights by shape name
         camera   a `Camera`, or a direction ("front", "AZIMUTH,ELEVATION") that frames the neutral face
         legend   whether a heat map gets its legend drawn in
 
-        Raises `OptionError`, `PoseError`, `UnknownNameError`, `GraphicsError`.
+        Raises what `Renderer.draw` does, `OptionError` and `GraphicsError`.
         """
         width, height = checked_size(size)
         if isinstance(camera, str):
@@ -59,7 +61,7 @@ class Offscreen:
             if rig is not self._rig:
                 self.renderer.load(rig)
                 self._rig = rig
-            self.renderer.draw(as_pose(pose or {}), camera, look or Look(), size, exactly=True)
+            self.renderer.draw(pose or {}, camera, look or Look(), size, exactly=True)
             pixels = self.renderer.read()
         if legend and self.renderer.legend is not None:
             pixels = with_legend(pixels, self.renderer.legend)
@@ -87,7 +89,7 @@ class Offscreen:
 
 def render(
     rig: Rig,
-    pose: Pose | Mapping[str, float] | None = None,
+    pose: Scene | Pose | Mapping[str, float] | None = None,
     *,
     size: tuple[int, int] = (1280, 800),
     camera: Camera | str = "front",

@@ -14,9 +14,10 @@ import numpy as np
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.gl.backdrop import Backdrop
+from facemorph.gl.colours import OWN_UNIT, PARTNER_UNIT, Source, blended_opacity, source_of
 from facemorph.gl.heat import ramp
 from facemorph.gl.lights import Lights
-from facemorph.gl.materials import CLAY, CLAY_COLOUR, Colour, Finish, finish_of
+from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
 from facemorph.gl.surface import Part, Surface
 from facemorph.gl.textures import Textures
@@ -45,6 +46,8 @@ class Painter:
         self._backdrop = Backdrop(ctx, programs)
         self._ramp: moderngl.Texture | None = None
         self._assigned: set[int] = set()
+        self._glowing = False
+        self._share = 0.0
 
     def paint(
         self,
@@ -53,14 +56,22 @@ class Painter:
         camera: Camera,
         look: Look,
         size: tuple[int, int],
+        *,
+        glowing: bool = False,
+        share: float = 0.0,
     ) -> None:
-        """Fill `framebuffer` with the face as `look` wants it."""
+        """Fill `framebuffer` with the face as `look` wants it.
+
+        glowing   whether the surface's `glow` lights it up, in shadings that have light
+        share     how much of the colours is the partner's, 0..1
+        """
+        self._glowing, self._share = glowing, share if surface.partner is not None else 0.0
         scene = self._scene(camera, look, size)
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="
-        solid = [part for part in surface.parts if part.material.opacity >= 1.0]
+        solid = [part for part in surface.parts if self._opacity(part) >= 1.0]
         self._draw_parts(surface, solid, look, scene, (_OUTSIDE, _INSIDE))
         if later:
             self._ctx.disable(self._ctx.CULL_FACE)
@@ -68,10 +79,13 @@ class Painter:
             self._ctx.enable(self._ctx.CULL_FACE)
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
-        clear = [part for part in surface.parts if part.material.opacity < 1.0]
+        clear = [part for part in surface.parts if self._opacity(part) < 1.0]
         self._draw_parts(surface, clear, look, scene, (_INSIDE, _OUTSIDE))
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
+
+    def _opacity(self, part: Part) -> float:
+        return blended_opacity(part.material, part.partner, self._share)
 
     def _scene(self, camera: Camera, look: Look, size: tuple[int, int]) -> dict[str, object]:
         """The uniforms that every part of the picture shares."""
@@ -83,8 +97,11 @@ class Painter:
             "picture_size": (float(size[0]), float(size[1])),
             "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
             "ramp": 0,
-            "albedo_texture": 0,
+            "albedo_texture": OWN_UNIT,
             "polygon_edges": 1,
+            "partner_texture": PARTNER_UNIT,
+            "partner_share": self._share,
+            "glow_colour": GLOW_COLOUR,
             **self._lights.uniforms(camera),
         }
 
@@ -98,7 +115,7 @@ class Painter:
 
     def _draw_part(self, surface: Surface, part: Part, look: Look, scene: Uniforms) -> None:
         if look.shading in ("clay", "wire"):
-            self._draw_lit(surface, part, scene, CLAY, CLAY_COLOUR, [])
+            self._draw_lit(surface, part, scene, CLAY, Source(CLAY_COLOUR, 1.0))
         elif look.shading == "normals":
             self._draw(surface, part, scene, "normals.frag", [], {})
         elif look.shading == "heat":
@@ -109,23 +126,28 @@ class Painter:
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""
-        material = part.material
-        texture = self.textures.of(material)
-        if texture is not None:
-            texture.use(0)
-            define = ["TEXTURED", "CUTOUT"] if texture.components == 4 else ["TEXTURED"]
-            self._draw_lit(surface, part, scene, finish_of(material), material.diffuse, define)
-        elif surface.mesh.colours is not None:
-            self._draw_lit(surface, part, scene, finish_of(material), (1.0, 1.0, 1.0), ["COLOURED"])
-        else:
-            self._draw_lit(surface, part, scene, finish_of(material), material.diffuse, [])
+        own = source_of(part.material, surface.mesh, self.textures)
+        partner = None
+        if self._share > 0.0 and part.partner is not None and surface.partner is not None:
+            partner = source_of(part.partner, surface.partner, self.textures).as_stored()
+            own = own.as_stored()
+        self._draw_lit(surface, part, scene, finish_of(part.material), own, partner)
 
     def _draw_lit(
-        self, surface: Surface, part: Part, scene: Uniforms, finish: Finish, albedo: Colour, define: list[str]
+        self,
+        surface: Surface,
+        part: Part,
+        scene: Uniforms,
+        finish: Finish,
+        source: Source,
+        partner: Source | None = None,
     ) -> None:
+        define = source.defines()
+        if source.texture is not None:
+            source.texture.use(OWN_UNIT)
         own: dict[str, object] = {
-            "albedo": tuple(value * finish.shade for value in albedo),
-            "opacity": part.material.opacity if finish is not CLAY else 1.0,
+            "albedo": tuple(value * finish.shade for value in source.factor),
+            "opacity": source.opacity,
             "wrap": finish.wrap,
             "gloss": finish.gloss,
             "sharpness": finish.sharpness,
@@ -134,6 +156,23 @@ class Painter:
             "matte": finish.matte,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
+        if partner is not None:
+            define += ["PARTNER", *partner.defines("PARTNER_")]
+            # Textures of one set of coordinates are looked up at one.
+            if partner.texture is not None:
+                partner.texture.use(PARTNER_UNIT)
+                if not (surface.shares_uvs and source.texture is not None):
+                    define.append("PARTNER_UV")
+            own |= {
+                "stored_colour": source.stored,
+                "partner_stored_colour": partner.stored,
+                "partner_albedo": tuple(value * finish.shade for value in partner.factor),
+                "partner_opacity": partner.opacity,
+            }
+        if source.cut_out or (partner is not None and partner.cut_out):
+            define.append("CUTOUT")
+        if self._glowing:
+            define.append("GLOW")
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
         by_vertex = self._software and surface.drawn_count >= FINE_MESH and scene["side"] == _OUTSIDE
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]

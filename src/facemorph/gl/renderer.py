@@ -1,13 +1,19 @@
 """`Renderer`: draws a rig in a pose from a camera into its own framebuffer.
 
 The window shows that framebuffer; pictures and tests read it. Drawing goes in two stages: MORPH fills
-one buffer of positions and normals, and only when a coefficient changed; every pass of DRAW reads that
-buffer as plain vertex attributes. So a frame costs what a static mesh costs, and moving the camera
-blends nothing.
+one buffer of positions and normals, and only when a coefficient or the offsets changed; every pass of
+DRAW reads that buffer as plain vertex attributes. So a frame costs what a static mesh costs, and moving
+the camera blends nothing.
+
+Two views of one frame (a split view: the same face by two methods) take two renderers in one context.
+Each keeps its own morphed buffer, so a view whose scene stays the same blends nothing while the other's
+changes, and turning linked cameras blends nothing at all; one renderer drawing both in turn would morph
+twice a frame. The rig's arrays are shared; what is there twice is the buffers of vertices and textures.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -19,13 +25,15 @@ from facemorph.core.camera import Camera
 from facemorph.core.picture import Look, checked_size
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
+from facemorph.core.scene import Partner, Scene
 from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
-from facemorph.gl.heat import Legend, displacements, heat_end, heat_legend
+from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, displacements, heat_end, heat_legend
 from facemorph.gl.lights import Lights
 from facemorph.gl.painter import Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
+from facemorph.gl.scenes import checked_scene, partner_surface
 from facemorph.gl.surface import Surface
 from facemorph.gl.target import Target
 
@@ -40,8 +48,11 @@ SAMPLES = 4
 class Morph(Protocol):
     """A way to fill a surface's morphed buffer."""
 
-    def update(self, pose: Pose, *, exactly: bool) -> None:
-        """Morph to `pose`."""
+    def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
+        """Morph to `pose` plus `offsets` (V, 3)."""
+
+    def bind(self, surface: Surface) -> None:
+        """Fill `surface` from now on, of the same mesh."""
 
     def release(self) -> None:
         """Give back what the context holds."""
@@ -49,10 +60,21 @@ class Morph(Protocol):
 
 @dataclass
 class Stats:
-    """What was done since the face was loaded: frames drawn, and how many of them had to morph."""
+    """What was done since the face was loaded: frames drawn, how many had to morph, partners taken."""
 
     frames: int = 0
     morphs: int = 0
+    partners: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class _Shown:
+    """What the morphed buffer holds."""
+
+    pose: Pose
+    coefficients: Float64
+    offsets: Float32 | None
+    exactly: bool
 
 
 class Renderer:
@@ -78,8 +100,7 @@ class Renderer:
         self._surface: Surface | None = None
         self._morph: Morph | None = None
         self._blend: Blend | None = None
-        self._shown: tuple[Pose, Float64] | None = None
-        self._exact = False
+        self._shown: _Shown | None = None
         self._drawn: tuple[Camera, tuple[int, int]] | None = None
         self._legend: Legend | None = None
 
@@ -125,7 +146,7 @@ class Renderer:
 
     def draw(
         self,
-        pose: Pose,
+        what: Scene | Pose | Mapping[str, float],
         camera: Camera,
         look: Look,
         size: tuple[int, int],
@@ -133,25 +154,38 @@ class Renderer:
         quality: Quality = "full",
         exactly: bool = False,
     ) -> None:
-        """Draw `pose` seen by `camera` at `size` pixels (width, height) into the own framebuffer.
+        """Draw `what` seen by `camera` at `size` pixels (width, height) into the own framebuffer.
+
+        A scene's arrays are uploaded when they are others than in the frame before. Its `glow` shows in
+        the shadings skin, clay and wire, its `reference` in heat, its partner in skin; the partner's s
+        outside 0..1 is taken for the nearer end. Another partner rebuilds what is drawn of the mesh once,
+        another s nothing.
 
         quality   "fast" leaves out antialiasing where OpenGL runs on the CPU (it doubles the frame
                   there): for frames while something moves; "full" for still ones and pictures
         exactly   morph in full, so that equal arguments give equal pixels whatever was drawn before
 
-        Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size.
+        Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
+        `MeshDataError` for arrays of another shape than the rig's, `CorrespondenceError` for a partner
+        with other polygons.
         """
-        rig, surface = self._loaded()
+        rig, _ = self._loaded()
         size = checked_size(size)
+        scene = checked_scene(Scene.of(what), rig, self._known())
         # Asked of GL itself: a window's interface binds framebuffers that moderngl has not seen.
         outer = self.ctx.detect_framebuffer()
         hurried = quality == "fast" and self.graphics.software
         samples = 0 if hurried else min(SAMPLES, self.graphics.max_samples)
         try:
-            self._update(pose, rig, exactly=exactly)
-            look = self._with_heat_end(look, rig)
+            surface = self._surface_for(scene.partner)
+            self._update(scene, rig, exactly=exactly)
+            look = self._with_heat_end(look, scene, rig)
+            if scene.glow is not None:
+                surface.give("glow", scene.glow)
             framebuffer = self._target.prepare(size, samples)
-            self._painter.paint(framebuffer, surface, camera, look, size)
+            share = min(max(scene.partner.s, 0.0), 1.0) if scene.partner else 0.0
+            glowing = scene.glow is not None
+            self._painter.paint(framebuffer, surface, camera, look, size, glowing=glowing, share=share)
             self._target.finish(framebuffer)
         finally:
             self._painter.restore(outer)
@@ -163,11 +197,15 @@ class Renderer:
         return self._target.read()
 
     def positions(self) -> Float32:
-        """Positions (V, 3) of the face as drawn last, model units; made on the CPU, nothing is read back."""
+        """Positions (V, 3) of the face as drawn last, model units, offsets and all.
+
+        Made on the CPU, nothing is read back; the next call may change the array.
+        """
         rig, _ = self._loaded()
         assert self._blend is not None
-        pose = self._shown[0] if self._shown else Pose()
-        return self._blend(pose.coefficients(rig.names))
+        shown = self._shown
+        positions = self._blend(shown.coefficients if shown else Pose().coefficients(rig.names))
+        return positions if shown is None or shown.offsets is None else positions + shown.offsets
 
     def pick(self, x: float, y: float) -> Pick | None:
         """What lies at pixel (x, y) of the picture drawn last, from its top left; None beside the face."""
@@ -182,28 +220,55 @@ class Renderer:
             raise GraphicsError("no face is loaded; call load first.")
         return self._rig, self._surface
 
-    def _update(self, pose: Pose, rig: Rig, *, exactly: bool) -> None:
-        """MORPH: only when a coefficient changed since the last frame."""
-        coefficients = pose.coefficients(rig.names)
-        same = self._shown is not None and np.array_equal(self._shown[1], coefficients)
-        if same and (self._exact or not exactly):
+    def _known(self) -> Float32 | None:
+        """The offsets that were checked already."""
+        return self._shown.offsets if self._shown else None
+
+    def _surface_for(self, partner: Partner | None) -> Surface:
+        """The surface to draw: with the partner's colours from when it is first asked for."""
+        rig, surface = self._loaded()
+        if partner is None or partner.rig.neutral is surface.partner:
+            return surface
+        made = partner_surface(self.ctx, rig, surface, partner.rig)
+        assert self._morph is not None
+        self._morph.bind(made)
+        surface.release()
+        self._surface, self._shown = made, None
+        self._painter.textures.keep(made.texture_paths())
+        self.stats.partners += 1
+        return made
+
+    def _update(self, scene: Scene, rig: Rig, *, exactly: bool) -> None:
+        """MORPH: only when a coefficient or the offsets changed since the last frame."""
+        coefficients = scene.pose.coefficients(rig.names)
+        shown = self._shown
+        if (
+            shown is not None
+            and shown.offsets is scene.offsets
+            and np.array_equal(shown.coefficients, coefficients)
+            and (shown.exactly or not exactly)
+        ):
             return
         assert self._morph is not None
-        self._morph.update(pose, exactly=exactly)
-        self._shown, self._exact = (pose, coefficients), exactly
+        self._shown = None
+        self._morph.update(scene.pose, scene.offsets, exactly=exactly)
+        self._shown = _Shown(scene.pose, coefficients, scene.offsets, exactly)
         self.stats.morphs += 1
 
-    def _with_heat_end(self, look: Look, rig: Rig) -> Look:
-        """`look` with the heat map's end settled, and its legend made."""
+    def _with_heat_end(self, look: Look, scene: Scene, rig: Rig) -> Look:
+        """`look` with the heat map's end settled, what it measures from uploaded, and its legend made."""
         if look.shading != "heat":
             self._legend = None
             return look
+        reference = rig.neutral.positions if scene.reference is None else scene.reference
+        title = DISPLACEMENT if scene.reference is None else DIFFERENCE
+        self._loaded()[1].give("reference", reference)
         unit, end = rig.info.unit, look.heat_max
         if end is None or not end > 0.0:
-            largest = float(displacements(self.positions(), rig.neutral.positions).max(initial=0.0))
+            largest = float(displacements(self.positions(), reference).max(initial=0.0))
             end = heat_end(largest, unit, rig.neutral.diagonal or 1.0)
-        if self._legend is None or self._legend.high != end:
-            self._legend = heat_legend(end, unit)
+        if self._legend is None or (self._legend.high, self._legend.title) != (end, title):
+            self._legend = heat_legend(end, unit, title)
         return replace(look, heat_max=end)
 
     def _unload(self) -> None:

@@ -7,14 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import Int32, Int64, UInt8
+from facemorph.core.arrays import Float32, Int32, Int64, UInt8
 from facemorph.core.mesh import Material, Mesh
 from facemorph.core.split import split_vertices
 from facemorph.core.triangles import Triangles, triangulated
+from facemorph.gl.counterpart import counterpart
 from facemorph.gl.hem import Hem, hem_of
 from facemorph.gl.materials import PLAIN
 
@@ -22,37 +24,63 @@ if TYPE_CHECKING:
     import moderngl
 
 MORPHED_BYTES = 24  # position and normal, three float32 each
+# What else shaders may ask of a drawn vertex, and how its buffer holds it.
+_FORMS = {
+    "uv": "2f",
+    "partner_uv": "2f",
+    "colour": "3f1",
+    "partner_colour": "3f1",
+    "reference": "3f",
+    "glow": "1f",
+    "kept": "1f",
+}
 
 
 @dataclass(frozen=True)
 class Part:
-    """A run of triangles drawn alike: material, first triangle, how many, whether they fade at the hem."""
+    """A run of triangles drawn alike: material, first triangle, how many, whether they fade at the hem.
+
+    `partner` is the partner's material there; None for a surface without a partner.
+    """
 
     material: Material
     first: int
     count: int
     in_hem: bool
+    partner: Material | None = None
 
 
 class Surface:
     """G drawn vertices and T triangles of a mesh of V positions.
+
+    With `partner`, a mesh of the same polygons, the vertices carry that one's texture coordinates and
+    colours too; `kin` is a surface of the same mesh, whose triangles and hem are taken over.
 
     position_of  (G,) int32, the position each drawn vertex is a copy of
     order        (T,) the mesh's triangles in the order they are drawn
     morphed      buffer of (G, 6) float32: position and normal of each drawn vertex
     """
 
-    def __init__(self, ctx: moderngl.Context, mesh: Mesh) -> None:
+    def __init__(
+        self, ctx: moderngl.Context, mesh: Mesh, partner: Mesh | None = None, *, kin: Surface | None = None
+    ) -> None:
         self._ctx = ctx
-        self.mesh = mesh
-        self.triangles: Triangles = triangulated(mesh)
+        self.mesh, self.partner = mesh, partner
+        self.triangles: Triangles = kin.triangles if kin else triangulated(mesh)
+        self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices)
         split = split_vertices(mesh, self.triangles)
+        materials = [_materials(mesh, self.triangles.polygon)]
+        self._partner_uvs: Float32 | None = None
+        if partner is not None:
+            other = counterpart(mesh, self.triangles, split, partner)
+            split, self._partner_uvs = other.split, other.uvs
+            materials.append(_materials(partner, other.polygon))
         self.position_of: Int32 = split.position_of
         self.drawn_count = len(split.position_of)
         self.triangle_count = len(split.triangles)
-        self.hem: Hem | None = hem_of(mesh, self.triangles.vertices)
-        self.parts, self.order = _parts(mesh, self.triangles, self.hem)
+        self.parts, self.order = _parts(materials, self.hem)
         self._uvs = split.uvs
+        self._given: dict[str, Float32] = {}
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._arrays: dict[int, moderngl.VertexArray] = {}
         self._edges: moderngl.Texture | None = None
@@ -70,29 +98,58 @@ class Surface:
         wanted = [name for name in ("position", "normal") if name in program]
         layout = {1: "3f 12x", 2: "3f 3f"}[len(wanted)]
         content: list[tuple[object, ...]] = [(self.morphed, layout, *wanted)]
-        for name, form in (("uv", "2f"), ("colour", "3f1"), ("neutral", "3f"), ("kept", "1f")):
+        for name, form in _FORMS.items():
             if name in program:
-                content.append((self._static(name), form, name))
+                content.append((self._buffer(name), form, name))
         return content
 
-    def _static(self, name: str) -> moderngl.Buffer:
+    @property
+    def shares_uvs(self) -> bool:
+        """Whether the partner's texture coordinates are the mesh's own."""
+        return self._partner_uvs is None
+
+    def give(self, name: str, values: Float32) -> None:
+        """Set `glow` (V,) or `reference` (V, 3); the array that was given last is not uploaded again."""
+        if self._given.get(name) is values:
+            return
+        self._given[name] = values
+        if name in self._buffers:
+            self._buffers[name].orphan()
+            self._buffers[name].write(self._drawn_values(values).tobytes() or b"\0")
+
+    def _drawn_values(self, values: Float32) -> Float32:
+        return np.ascontiguousarray(values[self.position_of], np.float32)
+
+    def _buffer(self, name: str) -> moderngl.Buffer:
         if name not in self._buffers:
             values = np.ascontiguousarray(self._values(name))
             self._buffers[name] = self._ctx.buffer(values.tobytes() or b"\0")
         return self._buffers[name]
 
     def _values(self, name: str) -> np.ndarray[tuple[int, ...], np.dtype[np.float32 | np.uint8]]:
+        if name in self._given:
+            return self._drawn_values(self._given[name])
         if name == "uv":
             return self._uvs
-        if name == "neutral":
+        if name == "partner_uv":
+            return self._uvs if self._partner_uvs is None else self._partner_uvs
+        if name == "reference":
             return self.mesh.positions[self.position_of]
+        if name == "glow":
+            return np.zeros(self.drawn_count, np.float32)
         if name == "kept":
             kept = self.hem.kept if self.hem else np.ones(self.mesh.vertex_count, np.float32)
             return kept[self.position_of]
-        colours = self.mesh.colours
+        whose = self.partner if name == "partner_colour" else self.mesh
+        colours = None if whose is None else whose.colours
         if colours is None:
             return np.full((self.drawn_count, 3), 255, np.uint8)
         return (np.clip(colours[self.position_of], 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
+
+    def texture_paths(self) -> set[Path]:
+        """The textures that its materials, and its partner's, name."""
+        materials = [m for part in self.parts for m in (part.material, part.partner) if m is not None]
+        return {material.texture for material in materials if material.texture is not None}
 
     def polygon_edges(self) -> moderngl.Texture:
         """For each triangle in drawing order, which of its edges belong to a polygon: bits 1, 2 and 4."""
@@ -129,22 +186,33 @@ def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
     return bits
 
 
-def _parts(mesh: Mesh, triangles: Triangles, hem: Hem | None) -> tuple[tuple[Part, ...], Int64]:
-    """The runs to draw, opaque ones first, and the order of triangles that makes them."""
-    materials, of_triangle = _materials(mesh, triangles.polygon)
-    in_hem = np.zeros(len(triangles.polygon), bool) if hem is None else hem.triangles
-    see_through = np.array([material.opacity < 1.0 for material in materials])
-    key = (see_through[of_triangle].astype(np.int64) * 2 + in_hem) * len(materials) + of_triangle
+_OfTriangles = tuple[Sequence[Material], Int64]
+
+
+def _parts(materials: Sequence[_OfTriangles], hem: Hem | None) -> tuple[tuple[Part, ...], Int64]:
+    """The runs to draw, opaque ones first, and the order of triangles that makes them.
+
+    `materials` are the mesh's own and, where there is one, the partner's.
+    """
+    own, of_triangle = materials[0]
+    in_hem = np.zeros(len(of_triangle), bool) if hem is None else hem.triangles
+    see_through = np.array([material.opacity < 1.0 for material in own])
+    key = (see_through[of_triangle].astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
+    partners: Sequence[Material | None] = (None,)
+    if len(materials) > 1:
+        partners, partner_of = materials[1]
+        key = key * len(partners) + partner_of
     order = np.argsort(key, kind="stable")
     found, first, count = np.unique(key[order], return_index=True, return_counts=True)
-    parts = tuple(
-        Part(materials[int(k) % len(materials)], int(f), int(n), bool((int(k) // len(materials)) % 2))
-        for k, f, n in zip(found, first, count, strict=True)
-    )
-    return parts, order
+    parts = []
+    for k, start, number in zip(found.tolist(), first.tolist(), count.tolist(), strict=True):
+        group, p = divmod(k, len(partners))
+        hemmed, m = divmod(group, len(own))
+        parts.append(Part(own[m], start, number, bool(hemmed % 2), partners[p]))
+    return tuple(parts), order
 
 
-def _materials(mesh: Mesh, polygon: Int32) -> tuple[Sequence[Material], Int64]:
+def _materials(mesh: Mesh, polygon: Int32) -> _OfTriangles:
     """The materials in use and, for each triangle, which one."""
     used = mesh.materials_used
     if used is None or not used.names:

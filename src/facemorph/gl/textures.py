@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,12 +46,16 @@ class Textures:
                 self.problems.append(str(error))
         return self._read[path]
 
-    def forget(self) -> None:
-        """Give the textures back to the context."""
-        for texture in self._read.values():
+    def keep(self, paths: Collection[Path]) -> None:
+        """Give back the textures of other paths to the context."""
+        for path in [path for path in self._read if path not in paths]:
+            texture = self._read.pop(path)
             if texture is not None:
                 texture.release()
-        self._read.clear()
+
+    def forget(self) -> None:
+        """Give the textures back to the context."""
+        self.keep(())
         self.problems.clear()
 
 

@@ -1,0 +1,85 @@
+"""Where a part's colour comes from, and how two people's colours are blended.
+
+colour = (1 - s) own + s partner (thesis, 2.1.2), of the STORED values, which are sRGB, and not of linear
+light. That is the thesis' formula as it stands (it blends the texels of two pictures), and in sRGB equal
+steps of s look about equal; in linear light half of the way from a dark face to a pale one would be seen
+in its first third. It is also one decoding a pixel instead of two. A material without texture stands in
+with its diffuse colour encoded. Where both have a texture and other diffuse factors, the factors are
+blended as well, linearly; at s = 0 and s = 1 every rule gives exactly the one and the other.
+
+How a part answers light (`gl.materials`) stays the face's own: the partner lends colours, no gloss.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from facemorph.core.mesh import Material, Mesh
+from facemorph.gl.materials import Colour
+from facemorph.gl.textures import Textures
+
+if TYPE_CHECKING:
+    import moderngl
+
+_WHITE: Colour = (1.0, 1.0, 1.0)
+# Texture units; 1 is the polygon edges'.
+OWN_UNIT, PARTNER_UNIT = 0, 2
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A linear `factor` on the colour a texture, the vertices (`coloured`) or neither (`stored`) has."""
+
+    factor: Colour
+    opacity: float
+    texture: moderngl.Texture | None = None
+    coloured: bool = False
+    stored: Colour = _WHITE
+
+    @property
+    def cut_out(self) -> bool:
+        """Whether the texture lets the background through in places."""
+        return self.texture is not None and self.texture.components == 4
+
+    def defines(self, prefix: str = "") -> list[str]:
+        """What the shaders are to look up."""
+        if self.texture is not None:
+            return [f"{prefix}TEXTURED"]
+        return [f"{prefix}COLOURED"] if self.coloured else []
+
+    def as_stored(self) -> Source:
+        """The same with a plain colour stored as a texture would hold it, to be blended with another's."""
+        if self.texture is not None or self.coloured:
+            return self
+        red, green, blue = (encoded(value) for value in self.factor)
+        return Source(_WHITE, self.opacity, stored=(red, green, blue))
+
+
+def source_of(material: Material, mesh: Mesh, textures: Textures) -> Source:
+    """The material's texture, the mesh's vertex colours, or the material's diffuse colour."""
+    texture = textures.of(material)
+    if texture is not None:
+        return Source(material.diffuse, material.opacity, texture)
+    if mesh.colours is not None:
+        return Source(_WHITE, material.opacity, coloured=True)
+    return Source(material.diffuse, material.opacity)
+
+
+def encoded(linear: float) -> float:
+    """What `linear_from_srgb` of `shaders/lib/colour.glsl` makes `linear` of; values above 1 are kept."""
+    value = max(linear, 0.0)
+    stored = math.sqrt(value)
+    # Newton's way to the cubic's root; from 0 on the cubic rises and bends upwards, so it arrives.
+    for _ in range(12):
+        slope = stored * (3.0 * 0.305306011 * stored + 2.0 * 0.682171111) + 0.012522878
+        there = stored * (stored * (0.305306011 * stored + 0.682171111) + 0.012522878)
+        stored -= (there - value) / slope
+    return stored
+
+
+def blended_opacity(own: Material, partner: Material | None, share: float) -> float:
+    """The opacity of a part of which `share` is the partner's."""
+    other = own if partner is None else partner
+    return (1.0 - share) * own.opacity + share * other.opacity

@@ -1,0 +1,72 @@
+"""`Counterpart`: what another mesh of the same polygons has at each drawn vertex and triangle of a mesh.
+
+The two may differ in their texture coordinates, and in the order of their polygons and where each
+polygon begins. A vertex is drawn once for each set of position, own and other texture coordinate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from facemorph.core.arrays import Float32, Int32, Int64
+from facemorph.core.mesh import Mesh
+from facemorph.core.split import SplitVertices
+from facemorph.core.triangles import Triangles
+
+
+@dataclass(frozen=True, eq=False)
+class Counterpart:
+    """The other mesh over T triangles and G drawn vertices.
+
+    split    the drawn vertices, split by both meshes' texture coordinates
+    uvs      (G, 2) float32 of the other mesh; None where they are the same as the mesh's own
+    polygon  (T,) int32, the other mesh's polygon that each triangle is part of
+    """
+
+    mesh: Mesh
+    split: SplitVertices
+    uvs: Float32 | None
+    polygon: Int32
+
+
+def counterpart(mesh: Mesh, triangles: Triangles, split: SplitVertices, other: Mesh) -> Counterpart:
+    """`other` over `mesh`, which it corresponds to, given the mesh's triangles and drawn vertices."""
+    corners = corresponding_corners(mesh, other)[triangles.corners]
+    polygon_of = np.repeat(np.arange(other.polygon_count, dtype=np.int32), np.diff(other.polygon_starts))
+    if other.corner_uvs is None or not len(other.uvs):
+        uv = np.full(corners.shape, -1, np.int64)
+    else:
+        uv = other.corner_uvs[corners].astype(np.int64)
+    width = len(other.uvs) + 1
+    pairs, drawn = np.unique(split.triangles.astype(np.int64) * width + (uv + 1), return_inverse=True)
+    parent, uv_of = np.divmod(pairs, width)
+    finer = SplitVertices(
+        split.position_of[parent], split.uvs[parent], drawn.reshape(corners.shape).astype(np.int32)
+    )
+    uvs = np.concatenate([np.zeros((1, 2), np.float32), other.uvs])[uv_of].astype(np.float32)
+    return Counterpart(
+        other, finer, None if np.array_equal(uvs, finer.uvs) else uvs, polygon_of[corners[:, 0]]
+    )
+
+
+def corresponding_corners(mesh: Mesh, other: Mesh) -> Int64:
+    """For each corner (C,) of `mesh` the one of `other` in the same polygon at the same vertex."""
+    found = np.arange(len(mesh.corner_vertices), dtype=np.int64)
+    if np.array_equal(mesh.polygon_starts, other.polygon_starts) and np.array_equal(
+        mesh.corner_vertices, other.corner_vertices
+    ):
+        return found
+    for size in np.unique(np.diff(mesh.polygon_starts)).tolist():
+        if size:
+            found[_ordered_corners(mesh, size)] = _ordered_corners(other, size)
+    return found
+
+
+def _ordered_corners(mesh: Mesh, size: int) -> Int64:
+    """Corners (n, size) of the polygons of one size: each begun at its lowest vertex, in ascending order."""
+    first = mesh.polygon_starts[:-1][np.diff(mesh.polygon_starts) == size].astype(np.int64)
+    lowest = mesh.corner_vertices[first[:, None] + np.arange(size)].argmin(axis=1)
+    corners: Int64 = first[:, None] + (lowest[:, None] + np.arange(size)) % size
+    return corners[np.lexsort(mesh.corner_vertices[corners].T[::-1])]

@@ -14,18 +14,24 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import UInt8
+from facemorph.core.arrays import Float32, Int32, UInt8
 from facemorph.core.camera import Camera
 from facemorph.core.mesh import Labels
+from facemorph.core.normals import vertex_normals
 from facemorph.core.picture import Look, checked_size
-from facemorph.core.pose import Pose
+from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress, silent
-from facemorph.core.rig import EXPRESSION, Rig, as_pose
+from facemorph.core.rig import EXPRESSION, Rig
+from facemorph.core.scene import Scene
+from facemorph.errors import OptionError
 
 if TYPE_CHECKING:
+    from facemorph.deform.rbf import Kernel
+    from facemorph.deform.rebuild import Rebuilt
     from facemorph.gl import Offscreen
 
-AnyPose = Pose | Mapping[str, float]
+MOST_POINTS = 2000
+AnyPose = Pose | Mapping[str, float] | Scene
 
 
 def load(
@@ -60,7 +66,7 @@ def render(
 
     checked_size(size)
     with Offscreen() as screen:
-        return screen.render(rig, as_pose(pose or {}), size=size, camera=camera, look=look or Look())
+        return screen.render(rig, {} if pose is None else pose, size=size, camera=camera, look=look or Look())
 
 
 def render_sheet(
@@ -93,11 +99,42 @@ def save_picture(path: str | Path, pixels: UInt8) -> Path:
 
 def export(rig: Rig, pose: AnyPose, path: str | Path) -> Path:
     """Write the posed face as an OBJ: same order, polygons, groups, uvs; normals of the morphed surface."""
+    return export_positions(rig, Scene.of(pose).positions(rig), path)
+
+
+def export_positions(rig: Rig, positions: Float32, path: str | Path) -> Path:
+    """Write the face with other positions (V, 3) as an OBJ, with the normals of that surface."""
     from facemorph.io import write_obj
 
-    pose = as_pose(pose)
-    write_obj(Path(path), rig.posed(pose), normals=rig.normals(pose))
+    write_obj(Path(path), rig.neutral.with_positions(positions), vertex_normals(positions, rig.triangles))
     return Path(path)
+
+
+def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> Int32:
+    """Vertices (n,) to rebuild `target` from: so many that cover what moves, or those of a handles file.
+
+    Raises `OptionError`, `DeformError`, `UnknownNameError`, `FaceFolderError`.
+    """
+    from facemorph.deform.rebuild import control_vertices
+    from facemorph.io import read_handles
+
+    if isinstance(points, str) and points.isdecimal():
+        points = int(points)
+    if isinstance(points, int):
+        if not 4 <= points <= MOST_POINTS:
+            raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
+        moved = rig.positions(state_of(target)) - rig.positions(state_of(source))
+        return control_vertices(rig, points, np.linalg.norm(moved, axis=1).astype(np.float32))
+    return np.array(read_handles(points, rig).vertices(), np.int32)
+
+
+def rebuild(
+    rig: Rig, source: str, target: str, vertices: Int32, kernel: Kernel = "r", c: float | None = None
+) -> Rebuilt:
+    """Expression `target` rebuilt from `source` and how the control points at `vertices` (n,) move (2.3)."""
+    from facemorph.deform.rebuild import rebuilt
+
+    return rebuilt(rig, rig.positions(state_of(source)), rig.positions(state_of(target)), vertices, kernel, c)
 
 
 def save_expressions(rig: Rig, folder: str | Path, *, size: tuple[int, int] = (800, 800)) -> list[Path]:

@@ -201,3 +201,9 @@ def test_the_library_loads_poses_draws_and_writes(folder, tmp_path):
     assert np.array_equal(np.asarray(Image.open(path).convert("RGBA")), pixels)
     write_obj(tmp_path / "copy.obj", rig.posed({"smile": 1.0}))
     assert facemorph.load([folder / "neutral.obj", tmp_path / "copy.obj"]).names == ("copy",)
+
+
+def test_a_camera_may_look_from_a_negative_azimuth(folder, tmp_path):
+    out = tmp_path / "x.png"
+    assert main(["render", str(folder), "--camera", "-30,-5", "--size", "40x40", "-o", str(out)]) == 0
+    assert out.is_file()

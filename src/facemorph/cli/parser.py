@@ -12,10 +12,12 @@ from facemorph.cli import verbs
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.morph import CURVES
 from facemorph.core.picture import SHADINGS
+from facemorph.deform.rbf import KERNELS
 from facemorph.errors import OptionError
 
 FACE_HELP = "a built-in face (ada), a folder, or mesh files of which the first is the neutral"
-VERBS = ("view", "faces", "info", "check", "render", "export", "doctor")
+PAIR_OPTIONS = ("--emotion", "--camera")
+VERBS = ("view", "faces", "info", "check", "render", "export", "rbf", "doctor")
 
 
 class Parser(argparse.ArgumentParser):
@@ -31,7 +33,18 @@ def parsed(arguments: Sequence[str]) -> argparse.Namespace:
     general = {"-h", "--help", "--version"}
     if not arguments or arguments[0] not in {*VERBS, *general}:
         arguments = ["view", *arguments]
-    return _parser().parse_args(arguments)
+    return _parser().parse_args(_with_negative_pairs(arguments))
+
+
+def _with_negative_pairs(arguments: Sequence[str]) -> list[str]:
+    """`--emotion -0.3,0.4` as one word: argparse takes a pair that begins with a minus for an option."""
+    joined: list[str] = []
+    for word in arguments:
+        if joined and joined[-1] in PAIR_OPTIONS and word[:1] == "-" and word[1:2] in set("0123456789."):
+            joined[-1] = f"{joined[-1]}={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 def _parser() -> Parser:
@@ -47,6 +60,7 @@ def _parser() -> Parser:
     _check(adders.add_parser("check", help="check a whole set of shapes"))
     _render(adders.add_parser("render", help="draw a picture without a window"))
     _export(adders.add_parser("export", help="write a morphed face as a mesh"))
+    _rbf(adders.add_parser("rbf", help="rebuild an expression from control points, and say how well"))
     _doctor(adders.add_parser("doctor", help="say what works on this machine and what is missing"))
     return parser
 
@@ -96,7 +110,7 @@ def _check(parser: Parser) -> None:
 
 def _render(parser: Parser) -> None:
     _verb(parser, verbs.render, "Draw a face in a pose, or a sheet of all its expressions, as a PNG.")
-    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    parser.add_argument("face", nargs="*", metavar="FACE", help=FACE_HELP)
     _pose_options(parser)
     parser.add_argument(
         "--sheet", action="store_true", help="every expression, labelled; --size is one tile's"
@@ -123,9 +137,32 @@ def _export(parser: Parser) -> None:
         verbs.export,
         "Write a face in a pose as an OBJ: order, polygons, groups, uvs kept; normals of the new surface.",
     )
-    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    parser.add_argument("face", nargs="*", metavar="FACE", help=FACE_HELP)
     _pose_options(parser)
     _output_option(parser, "OBJ")
+
+
+def _rbf(parser: Parser) -> None:
+    _verb(
+        parser,
+        verbs.rbf,
+        "Rebuild expression B from A by radial basis functions that know only how n control points move, "
+        "and print the error against the true B in percent of the face's diagonal.",
+    )
+    parser.add_argument("face", nargs="+", metavar="FACE", help=FACE_HELP)
+    parser.add_argument(
+        "--from", dest="source", default="neutral", metavar="A", help="expression to start from"
+    )
+    parser.add_argument("--to", dest="target", required=True, metavar="B", help="expression to rebuild")
+    parser.add_argument(
+        "--points", default="40", metavar="N|FILE", help="so many points, or a file of points (default: 40)"
+    )
+    parser.add_argument("--kernel", default="r", metavar="NAME", help=f"{', '.join(KERNELS)} (default: r)")
+    parser.add_argument("--c", metavar="C", help="the multiquadric's c, in the face's unit")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="an OBJ of the rebuilt face to write"
+    )
+    _json_option(parser)
 
 
 def _doctor(parser: Parser) -> None:
@@ -149,6 +186,26 @@ def _pose_options(parser: Parser) -> None:
         "--curve", default="linear", metavar="NAME", help=f"{' or '.join(CURVES)} (default: linear)"
     )
     _set_option(parser)
+    parser.add_argument(
+        "--au",
+        dest="units",
+        action="append",
+        default=[],
+        metavar="UNIT=VALUE",
+        help="add a FACS unit, as 12=0.8, L12=0.4 for the person's left alone, or units as AU1+4+15",
+    )
+    parser.add_argument(
+        "--emotion",
+        metavar="X,Y",
+        help="a place on the emotion map: happy up, angry down, sad right, afraid left",
+    )
+    parser.add_argument(
+        "--bilinear",
+        nargs=2,
+        metavar=("FACE1,FACE2", "EXPRESSION1,EXPRESSION2"),
+        help="between two people (--s) and two expressions (--t), in place of FACE, --from and --to",
+    )
+    parser.add_argument("--s", metavar="S", help="how far from FACE1 to FACE2, 0 to 1 (default: 0)")
 
 
 def _set_option(parser: Parser) -> None:

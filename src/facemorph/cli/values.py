@@ -17,12 +17,19 @@ from facemorph.errors import OptionError, PoseError
 
 def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
     """The pose of --from, --to, --t, --curve and --set. Names and numbers are checked."""
+    default_t = float(options.target is not None)
+    return pose_between(options, rig, options.source, options.target or NEUTRAL, default_t)
+
+
+def pose_between(
+    options: argparse.Namespace, rig: Rig, source: str, target: str, default_t: float = 0.0
+) -> Pose:
+    """The pose of --t, --curve and --set between two expressions."""
     weights = weights_from(options.weights)
-    for name in {options.source, options.target or NEUTRAL} - {NEUTRAL} | weights.keys():
+    for name in {source, target} - {NEUTRAL} | weights.keys():
         rig.shape(name)
-    t = number(options.t, "--t") if options.t is not None else float(options.target is not None)
-    curve = checked_curve(options.curve)
-    return Pose(state_of(options.source), state_of(options.target or NEUTRAL), t, curve, weights)
+    t = number(options.t, "--t") if options.t is not None else default_t
+    return Pose(state_of(source), state_of(target), t, checked_curve(options.curve), weights)
 
 
 def weights_from(words: Sequence[str]) -> dict[str, float]:

@@ -91,7 +91,8 @@ def check(options: argparse.Namespace) -> int:
 def render(options: argparse.Namespace) -> int:
     """Draw a picture or a sheet and write it."""
     from facemorph import api
-    from facemorph.cli.values import checked_suffix, look_from, pose_from
+    from facemorph.cli.scenes import rig_and_scene
+    from facemorph.cli.values import checked_suffix, look_from
     from facemorph.core.camera import direction_angles
     from facemorph.core.picture import picture_size
 
@@ -99,12 +100,11 @@ def render(options: argparse.Namespace) -> int:
     look = look_from(options)
     direction_angles(options.camera)
     size = picture_size(options.size) if options.size else None
-    rig = api.load(options.face)
+    rig, scene = rig_and_scene(options)
     if options.sheet:
         pixels = api.render_sheet(rig, tile=size or (320, 320), camera=options.camera, look=look)
     else:
-        pose = pose_from(options, rig)
-        pixels = api.render(rig, pose, size=size or (1280, 800), camera=options.camera, look=look)
+        pixels = api.render(rig, scene, size=size or (1280, 800), camera=options.camera, look=look)
     api.save_picture(output, pixels)
     return _wrote(output)
 
@@ -112,12 +112,54 @@ def render(options: argparse.Namespace) -> int:
 def export(options: argparse.Namespace) -> int:
     """Write the posed face as an OBJ."""
     from facemorph import api
-    from facemorph.cli.values import checked_suffix, pose_from
+    from facemorph.cli.scenes import rig_and_scene
+    from facemorph.cli.values import checked_suffix
 
     output = checked_suffix(options.output, ".obj")
-    rig = api.load(options.face)
-    api.export(rig, pose_from(options, rig), output)
+    rig, scene = rig_and_scene(options)
+    api.export(rig, scene, output)
     return _wrote(output)
+
+
+def rbf(options: argparse.Namespace) -> int:
+    """Rebuild an expression from control points and tell the error."""
+    from facemorph import api
+    from facemorph.cli.values import checked_suffix, number
+    from facemorph.deform.rbf import checked_kernel
+
+    kernel = checked_kernel(options.kernel)
+    c = None if options.c is None else number(options.c, "--c")
+    output = checked_suffix(options.output, ".obj") if options.output else None
+    rig = api.load(options.face)
+    vertices = api.control_points(rig, options.source, options.target, options.points)
+    result = api.rebuild(rig, options.source, options.target, vertices, kernel, c)
+    facts = {
+        "face": rig.info.name,
+        "from": options.source,
+        "to": options.target,
+        "points": len(vertices),
+        "kernel": kernel,
+        "rms_percent": result.rms_percent,
+        "max_percent": result.max_percent,
+        "bind_ms": result.bind_secs * 1e3,
+        "drag_ms": result.drag_secs * 1e3,
+    }
+    if output is not None:
+        api.export_positions(rig, result.positions, output)
+        facts["output"] = str(output)
+    print(json.dumps(facts, ensure_ascii=False) if options.json else _rbf_words(facts))
+    return 0
+
+
+def _rbf_words(facts: dict[str, object]) -> str:
+    lines = [
+        "{face}, {from} to {to}, {points} points, kernel {kernel}",
+        "rms error {rms_percent:.4f} % of the diagonal, largest {max_percent:.4f} %",
+        "forming the matrix {bind_ms:.1f} ms, a drag {drag_ms:.2f} ms",
+    ]
+    if "output" in facts:
+        lines.append("{output}")
+    return "\n".join(lines).format(**facts)
 
 
 def _wrote(path: Path) -> int:

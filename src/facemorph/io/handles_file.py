@@ -13,8 +13,8 @@ from typing import Any
 
 from facemorph.core.rig import Rig
 from facemorph.deform.handles import Handle, HandleSet
-from facemorph.deform.rbf import checked_kernel
-from facemorph.errors import FaceFolderError
+from facemorph.deform.rbf import Kernel, checked_kernel
+from facemorph.errors import FaceFolderError, OptionError
 from facemorph.io.atomic import replacing
 
 FORMAT = "facemorph handles 1"
@@ -54,7 +54,7 @@ def read_handles(path: str | Path, rig: Rig) -> HandleSet:
     vertices = [handle.vertex for handle in handles]
     if len(set(vertices)) < len(vertices):
         raise FaceFolderError(f"{path}: two points stand at one vertex; take one away.")
-    kernel = checked_kernel(str(content.get("kernel", "r")))
+    kernel = _kernel(path, str(content.get("kernel", "r")))
     c = content.get("c")
     if c is not None and not _is_length(c):
         raise FaceFolderError(f"{path}: `c` must be null or a length of 0 or more, not {c!r}.")
@@ -87,6 +87,13 @@ def _handle(path: Path, place: int, row: object, vertex_count: int) -> Handle:
         raise FaceFolderError(f"{path}: point {place} must be moved by three numbers, not {moved!r}.")
     x, y, z = (float(value) for value in moved)
     return Handle(vertex, (x, y, z), row.get("anchor", False) is True)
+
+
+def _kernel(path: Path, name: str) -> Kernel:
+    try:
+        return checked_kernel(name)
+    except OptionError as error:
+        raise FaceFolderError(f"{path}: {error}") from error
 
 
 def _is_number(value: object) -> bool:

@@ -14,6 +14,7 @@ from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
 from facemorph.errors import FacemorphError
+from facemorph.gl.heat import Legend
 from facemorph.resources import builtin_faces
 from facemorph.ui.state import App, Face
 from facemorph.ui.words import label_of
@@ -226,9 +227,10 @@ def load(paths: tuple[str, ...], progress: Progress, *, builtin: bool) -> Rig:
 
 def export_mesh(app: App, path: Path) -> None:
     """Write the shown face as an OBJ, in the neutral's order, with the morphed surface's normals."""
-    rig, pose = app.rig, app.shown_pose
+    rig = app.rig
     if rig is None:
         return
+    scene = app.scene()
     path = path if path.suffix.lower() == ".obj" else path.with_name(path.name + ".obj")
 
     def work(progress: Progress) -> Path:
@@ -236,7 +238,7 @@ def export_mesh(app: App, path: Path) -> None:
         from facemorph.io import write_obj
 
         progress(0.1, "Morphing")
-        mesh = rig.posed(pose)
+        mesh = rig.neutral.with_positions(scene.positions(rig))
         normals = vertex_normals(mesh.positions, rig.triangles)
         progress(0.4, f"Writing {path.name}")
         write_obj(path, mesh, normals)
@@ -279,14 +281,15 @@ def _failing(app: App, path: Path) -> Callable[[BaseException], None]:
     return failed
 
 
-def write_picture(app: App, path: Path, pixels: UInt8) -> None:
-    """Write pixels (H, W, 4) uint8 as a PNG, beside the window."""
+def write_picture(app: App, path: Path, pixels: UInt8, legend: Legend | None = None) -> None:
+    """Write pixels (H, W, 4) uint8 as a PNG, a heat map's with its legend, beside the window."""
 
     def work(progress: Progress) -> Path:
+        from facemorph.gl.legend import with_legend
         from facemorph.io import write_png
 
         progress(0.1, f"Writing {path.name}")
-        write_png(path, pixels)
+        write_png(path, pixels if legend is None else with_legend(pixels, legend))
         return path
 
     app.jobs.start(f"Saving {path.name}", work, lambda saved: _saved(app, saved), _failing(app, path))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from facemorph.core.pose import Pose
+from facemorph.deform.controls import Controls
 from facemorph.ui.words import change_words
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ class Snapshot:
     face: Face | None
     pose: Pose
     shapes_on: bool
+    controls: Controls = field(default_factory=Controls)
 
 
 @dataclass

@@ -19,6 +19,7 @@ from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
+from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError
 from facemorph.gl.describe import Graphics
 from facemorph.gl.heat import Legend
@@ -49,7 +50,13 @@ class DrawsFaces(Protocol):
         """Take a rig."""
 
     def draw(
-        self, pose: Pose, camera: Camera, look: Look, size: tuple[int, int], *, quality: Quality = "full"
+        self,
+        what: Scene | Pose,
+        camera: Camera,
+        look: Look,
+        size: tuple[int, int],
+        *,
+        quality: Quality = "full",
     ) -> None:
         """Draw it."""
 
@@ -89,6 +96,7 @@ class Session:
         self._last_secs = clock()
         self._loaded: Face | None = None
         self._drawn: tuple[object, ...] = ()
+        self._scene: Scene | None = None  # as drawn last; holding it keeps its arrays' identities
         self._style: tuple[str, float] = ("", 0.0)
         self._wide_script = False
         self._hurried = False  # the last picture was drawn for speed, and a still one is due
@@ -197,9 +205,20 @@ class Session:
         # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
         moving = bool(app.drag) or app.playback.playing or app.turntable or imgui.is_any_item_active()
         quality: Quality = "fast" if moving and app.picture_path is None else "full"
-        wanted = (app.face, app.shown_pose, app.camera, app.look, view.size)
+        scene = app.scene()
+        wanted = (
+            app.face,
+            scene.pose,
+            id(scene.offsets),
+            id(scene.glow),
+            partner_key(scene),
+            app.camera,
+            app.look,
+            view.size,
+        )
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
-            self.renderer.draw(app.shown_pose, app.camera, app.look, view.size, quality=quality)
+            self._scene = scene
+            self.renderer.draw(scene, app.camera, app.look, view.size, quality=quality)
             self._drawn = (*wanted, quality)
         self._hurried = False
         self._legend(app)
@@ -217,4 +236,9 @@ class Session:
     def _save(self, app: App) -> None:
         path, app.picture_path = app.picture_path, None
         if path is not None:
-            actions.write_picture(app, path, self.renderer.read())
+            actions.write_picture(app, path, self.renderer.read(), self.renderer.legend)
+
+
+def partner_key(scene: Scene) -> tuple[object, float]:
+    """What tells whether the colours mixed in are the same."""
+    return (scene.partner.rig, scene.partner.s) if scene.partner else (None, 0.0)

@@ -14,11 +14,14 @@ from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.rig import EXPRESSION, Rig, Shape
+from facemorph.core.scene import Scene
+from facemorph.deform.controls import Controls
 from facemorph.gl.describe import Graphics
 from facemorph.gl.heat import Legend
 from facemorph.ui.history import History, Snapshot
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.messages import Messages
+from facemorph.ui.methods import Methods
 from facemorph.ui.playback import Playback
 from facemorph.ui.settings import Settings
 
@@ -124,6 +127,8 @@ class App:
     face: Face | None = None
     pose: Pose = field(default_factory=Pose)
     shapes_on: bool = True
+    controls: Controls = field(default_factory=Controls)  # what the methods beside the shapes are set to
+    methods: Methods = field(default_factory=Methods)
     camera: Camera = field(default_factory=Camera)
     look: Look = field(default_factory=Look)
     turntable: bool = False
@@ -165,9 +170,13 @@ class App:
         """The pose that is drawn, saved and exported: without the shapes where they are switched off."""
         return self.pose if self.shapes_on else replace(self.pose, weights={})
 
+    def scene(self) -> Scene:
+        """What is drawn, saved and exported: the shown pose with what all methods add."""
+        return self.methods.scene(self)
+
     def shown_state(self) -> dict[str, float]:
         """Shape name -> weight of all that is drawn."""
-        pose = self.shown_pose
+        pose = self.scene().pose
         state = pose.way_state()
         for name, weight in pose.weights.items():
             state[name] = state.get(name, 0.0) + weight
@@ -175,13 +184,14 @@ class App:
 
     def snapshot(self) -> Snapshot:
         """What undo would bring back."""
-        return Snapshot(self.face, self.pose, self.shapes_on)
+        return Snapshot(self.face, self.pose, self.shapes_on, self.controls)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Bring back a snapshot; another face is framed anew."""
         if snapshot.face is not self.face:
             self.framing = "front"
         self.face, self.pose, self.shapes_on = snapshot.face, snapshot.pose, snapshot.shapes_on
+        self.controls = snapshot.controls
         self.playback.stop()
 
     def show(self, face: Face, pose: Pose | None = None) -> None:
@@ -189,6 +199,7 @@ class App:
         self.face = face
         self.pose = pose if pose is not None else first_pose(face.rig, self.settings)
         self.shapes_on = True
+        self.controls = Controls()
         self.framing = "front"
         self.shapes = ShapesPanel()
         self.playback.stop()

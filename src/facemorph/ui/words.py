@@ -6,11 +6,19 @@ from typing import TYPE_CHECKING
 
 from facemorph.core.pose import State
 from facemorph.core.rig import Rig, plain_label
+from facemorph.deform.controls import METHODS
 
 if TYPE_CHECKING:
     from facemorph.ui.history import Snapshot
 
 NEUTRAL_LABEL = "Neutral"
+METHOD_WORDS = {
+    "facs": "FACS units",
+    "emotion": "emotion map",
+    "people": "people",
+    "handles": "handles",
+    "regions": "regions",
+}
 
 
 def label_of(rig: Rig, name: str) -> str:
@@ -44,6 +52,10 @@ def change_words(before: Snapshot, after: Snapshot) -> str:
         return f"open {after.face.title}" if after.face else "close the face"
     if before.shapes_on != after.shapes_on:
         return "shapes on" if after.shapes_on else "shapes off"
+    changed = [m for m in METHODS if getattr(before.controls, m) != getattr(after.controls, m)]
+    switched = before.controls.off ^ after.controls.off
+    if changed or switched:
+        return METHOD_WORDS[next(iter(changed or sorted(switched)))]
     was, now = before.pose, after.pose
     rig = after.face.rig if after.face else None
     names = [n for n in {**was.weights, **now.weights} if was.weights.get(n, 0) != now.weights.get(n, 0)]

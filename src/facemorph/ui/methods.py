@@ -1,0 +1,115 @@
+"""From the methods' settings to the scene that is drawn; made again only when something changed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+from facemorph.core.arrays import Float32
+from facemorph.core.glow import glow_of
+from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.core.scene import Partner, Scene
+from facemorph.deform.controls import METHODS, BoundControls, Controls
+from facemorph.errors import FacemorphError
+
+if TYPE_CHECKING:
+    from facemorph.ui.state import App
+
+
+@dataclass
+class Methods:
+    """What is bound to the present face, and the scene made last.
+
+    people   rigs of other people by name, loaded when a mixture first asks for them
+    hovered  the slider under the pointer, as weights of what it would move; empty for none
+    """
+
+    people: dict[str, Rig] = field(default_factory=dict)
+    hovered: Mapping[str, float] = field(default_factory=dict)
+    _bound: BoundControls | None = None
+    _key: tuple[object, ...] = ()
+    _scene: Scene | None = None
+    _glow: tuple[tuple[tuple[str, float], ...], Float32 | None] = ((), None)
+    _told: str = ""
+
+    def scene(self, app: App) -> Scene:
+        """What to draw now. A method that cannot do what it is set to is switched off, and says why."""
+        if app.face is None:
+            return Scene(app.pose)
+        self._bind(app.face.rig, app.face.title)
+        key = (app.face, app.shown_pose, app.controls, tuple(self.people))
+        if self._scene is None or key != self._key:
+            self._scene, self._key = self._made(app, app.shown_pose), key
+        return replace(self._scene, glow=self._lit(app.face.rig))
+
+    def bound(self, app: App) -> BoundControls:
+        """The methods bound to the present face, which must be there."""
+        assert app.face is not None
+        return self._bind(app.face.rig, app.face.title)
+
+    def forget(self) -> None:
+        """Nothing of what was bound holds any longer: people were loaded, or regions painted."""
+        self._bound, self._key = None, ()
+
+    def _bind(self, rig: Rig, name: str) -> BoundControls:
+        if self._bound is None or self._bound.rig is not rig:
+            self._bound = BoundControls(rig, name, self.people)
+            self._key = ()
+        return self._bound
+
+    def _made(self, app: App, pose: Pose) -> Scene:
+        assert self._bound is not None
+        while True:
+            try:
+                contribution = self._bound(pose, app.controls)
+                return Scene.moved(pose, contribution, self._partner(app.controls))
+            except FacemorphError as error:
+                failing = self._failing(pose, app.controls)
+                if failing == "":
+                    raise
+                app.controls = replace(app.controls, off=app.controls.off | {failing})
+                self._tell(app, failing, error)
+
+    def _failing(self, pose: Pose, controls: Controls) -> str:
+        """The first method that cannot do alone what it is set to."""
+        assert self._bound is not None
+        for method in METHODS:
+            alone = replace(controls, off=frozenset(METHODS) - {method} | controls.off)
+            try:
+                self._bound(pose, alone)
+            except FacemorphError:
+                return method
+        return ""
+
+    def _tell(self, app: App, method: str, error: FacemorphError) -> None:
+        words = f"{tab_title(method)} is switched off. {error}"
+        if words != self._told:
+            app.messages.fail(words)
+        self._told = words
+
+    def _partner(self, controls: Controls) -> Partner | None:
+        """Whose colours are mixed in: the other person with the greatest weight."""
+        mix = controls.people.mix
+        if mix is None or not controls.on("people"):
+            return None
+        weights = {name: w for name, w in mix.weights().items() if name in self.people and w > 0.0}
+        if not weights:
+            return None
+        name = max(weights, key=lambda other: weights[other])
+        own = max(1.0 - sum(weights.values()), 0.0)
+        return Partner(self.people[name], weights[name] / (weights[name] + own))
+
+    def _lit(self, rig: Rig) -> Float32 | None:
+        """Where the face lights up for the hovered slider."""
+        wanted = tuple(sorted(self.hovered.items()))
+        if wanted != self._glow[0]:
+            known = {name: weight for name, weight in wanted if name in rig.names}
+            self._glow = (wanted, glow_of(rig, known) if known else None)
+        return self._glow[1]
+
+
+def tab_title(method: str) -> str:
+    """What a method's page is called."""
+    return "FACS" if method == "facs" else method.capitalize()

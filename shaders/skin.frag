@@ -32,7 +32,7 @@ void main() {
 #endif
     vec3 seen = paint.rgb * light + highlight(paint.rgb, n, half_way);
 #ifdef GLOW
-    seen = lit_up(seen, light);
+    seen = lit_up(seen);
 #endif
     show(displayed(seen), paint.a);
 }

@@ -4,9 +4,10 @@ uniform vec3 glow_colour;              // linear
 
 in float surface_glow;                 // 0 for no light to 1
 
-vec3 lit_up(vec3 seen, vec3 light) {
-    float amount = smoothstep(0.0, 1.0, surface_glow);
-    // Half the light of the scene keeps the form, the rest is the lamp's own.
-    vec3 lamp = glow_colour * (0.35 + 0.45 * dot(light, vec3(0.2126, 0.7152, 0.0722)));
-    return mix(seen, lamp, 0.62 * amount);
+vec3 lit_up(vec3 seen) {
+    // What moves a little belongs to the region too, and a plateau looks calmer than a peak.
+    float amount = smoothstep(0.03, 0.65, surface_glow);
+    // The skin's own luminance keeps form and brows; what is added to it shows on dark skin.
+    float luminance = dot(seen, vec3(0.2126, 0.7152, 0.0722));
+    return mix(seen, glow_colour * (0.20 + 1.35 * luminance), 0.55 * amount);
 }

@@ -60,7 +60,7 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
 
 CLAY_COLOUR: Colour = (0.43, 0.41, 0.385)
 # What a lit-up region is tinted with, linear: the interface's accent.
-GLOW_COLOUR: Colour = (0.06, 0.42, 0.66)
+GLOW_COLOUR: Colour = (0.10, 0.56, 0.80)
 # A mesh without any material: unpainted, but warm.
 PLAIN = Material("", diffuse=(0.50, 0.375, 0.305))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from facemorph.core.blend import Blend
 from facemorph.core.morph import morphed_positions
@@ -16,7 +17,9 @@ def error(rig: Rig, positions: np.ndarray, coefficients: np.ndarray) -> float:
     return float(np.linalg.norm(positions - wanted, axis=1).max()) / rig.neutral.diagonal
 
 
-def test_any_mixture_of_active_shapes_is_the_references() -> None:
+@pytest.mark.parametrize("block", [6, 60, 3 << 11])
+def test_any_mixture_of_active_shapes_is_the_references(monkeypatch, block: int) -> None:
+    monkeypatch.setattr("facemorph.core.blend._BLOCK", block)
     rig = many_shapes(30)
     blend = Blend(rig.neutral.positions, rig.deltas)
     random = np.random.default_rng(1)
@@ -56,6 +59,22 @@ def test_back_at_neutral_the_face_is_neutral_to_the_bit() -> None:
     blend(np.full(8, 0.37))
     blend(np.eye(8)[3])
     assert np.array_equal(blend(np.zeros(8)), rig.neutral.positions)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.9])
+def test_shapes_that_move_a_part_are_summed_where_they_move(monkeypatch, share: float) -> None:
+    monkeypatch.setattr("facemorph.core.blend._BLOCK", 33)
+    rig = many_shapes(9)
+    random = np.random.default_rng(3)
+    deltas = random.normal(size=rig.deltas.shape).astype(np.float32)
+    count = deltas.shape[1]
+    for delta in deltas:
+        delta[np.roll(np.arange(count) >= share * count, random.integers(count))] = 0.0
+    deltas[4] = 0.0
+    blend = Blend(rig.neutral.positions, deltas)
+    for coefficients in (np.ones(9), random.normal(size=9), np.arange(9) % 2.0, -np.eye(9)[8], np.eye(9)[4]):
+        wanted = morphed_positions(rig.neutral.positions, deltas, coefficients)
+        assert np.abs(blend(coefficients, exactly=True) - wanted).max() < 2e-6 * np.abs(wanted).max()
 
 
 def test_inactive_shapes_are_not_even_looked_at() -> None:

@@ -38,8 +38,10 @@ class CpuMorph:
         positions = self._blend(pose.coefficients(self._rig.names), exactly=exactly)
         if offsets is not None:
             positions = positions + offsets
-        self._both[:, :3] = positions
-        self._both[:, 3:] = self._normals_of(positions)
+        for axis in range(3):
+            # Column by column: numpy copies rows of three numbers one by one.
+            self._both[:, axis] = positions[:, axis]
+        self._normals_of(positions, out=self._both[:, 3:])
         if len(self._drawn):
             # Without a mode numpy gathers into a buffer of its own first.
             self._both.take(self._copies, axis=0, out=self._drawn, mode="clip")

@@ -5,9 +5,15 @@ from __future__ import annotations
 import platform
 import sys
 
-from benchmarks import blending, frames, reading, starting
+from benchmarks import blending, frames, methods, reading, starting
 
-GROUPS = {"reading": reading.run, "blending": blending.run, "frames": frames.run, "starting": starting.run}
+GROUPS = {
+    "reading": reading.run,
+    "blending": blending.run,
+    "frames": frames.run,
+    "methods": methods.run,
+    "starting": starting.run,
+}
 
 
 def main(names: list[str]) -> int:

@@ -12,7 +12,7 @@ alone, so M = G' G^-1 is formed once: a drag is the one product M h.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,10 @@ KERNELS: tuple[Kernel, ...] = get_args(Kernel)
 COINCIDENT = 1e-6
 # A condition number beyond which a solution in float64 has fewer than about three digits.
 SINGULAR = 1e13
-_CHUNK_ROWS = 4096
+_CHUNK_ROWS = 2048
+# Products of at most so many multiplications are not shared out to BLAS threads, which cost a drag ten
+# times as much as the product itself as soon as another core is busy.
+_ONE_THREAD_PRODUCT = 250_000
 
 
 def checked_kernel(name: str) -> Kernel:
@@ -75,7 +78,12 @@ class RbfField:
 
     def __call__(self, displacements: Float64) -> Float32:
         """Offsets (V, 3) for the control points' displacements (n, 3), model units (2.15)."""
-        return np.asarray(self.matrix @ np.ascontiguousarray(displacements, self.matrix.dtype))
+        moves = np.ascontiguousarray(displacements, self.matrix.dtype)
+        result: NDArray[Any] = np.empty((len(self.matrix), 3), self.matrix.dtype)
+        rows = max(_ONE_THREAD_PRODUCT // max(moves.size, 1), 1)
+        for start in range(0, len(result), rows):
+            np.matmul(self.matrix[start : start + rows], moves, out=result[start : start + rows])
+        return result
 
 
 def _kernel(kernel: Kernel, c: float) -> Callable[[Float64], Float64]:
@@ -89,9 +97,12 @@ def _kernel(kernel: Kernel, c: float) -> Callable[[Float64], Float64]:
 def _distances(a: Float64, b: Float64) -> Float64:
     """Distances between points a (m, 3) and b (n, 3), (m, n); by differences, so that equal points give 0."""
     squares = np.zeros((len(a), len(b)))
+    apart = np.empty_like(squares)
     for axis in range(3):
-        squares += (a[:, axis, None] - b[None, :, axis]) ** 2
-    return np.sqrt(squares)
+        np.subtract(a[:, axis, None], b[None, :, axis], out=apart)
+        np.multiply(apart, apart, out=apart)
+        squares += apart
+    return np.sqrt(squares, out=squares)
 
 
 def _system(points: Float64, kernel_of: Callable[[Float64], Float64]) -> Float64:
@@ -124,8 +135,10 @@ def _evaluated(
     result: NDArray[np.float32 | np.float64] = np.empty((len(surface), len(points)), dtype)
     for start in range(0, len(surface), _CHUNK_ROWS):
         rows = surface[start : start + _CHUNK_ROWS]
-        basis = np.concatenate([kernel_of(_distances(rows, points)), np.ones((len(rows), 1)), rows], axis=1)
-        result[start : start + _CHUNK_ROWS] = basis @ inverse
+        values = kernel_of(_distances(rows, points)) @ inverse[:-4]
+        values += rows @ inverse[-3:]
+        values += inverse[-4]
+        result[start : start + _CHUNK_ROWS] = values
     return result
 
 

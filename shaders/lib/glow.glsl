@@ -9,5 +9,5 @@ vec3 lit_up(vec3 seen) {
     float amount = smoothstep(0.03, 0.65, surface_glow);
     // The skin's own luminance keeps form and brows; what is added to it shows on dark skin.
     float luminance = dot(seen, vec3(0.2126, 0.7152, 0.0722));
-    return mix(seen, glow_colour * (0.20 + 1.35 * luminance), 0.55 * amount);
+    return mix(seen, glow_colour * (0.16 + 1.25 * luminance), 0.70 * amount);
 }

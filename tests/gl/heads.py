@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -57,6 +58,27 @@ def head_rig(folder: Path | None = None, rows: int = 36, columns: int = 48, unit
     deltas[2] = jaw[:, None] * np.array([0.0, -2.0, -0.8])
     shapes = tuple(Shape(name, name.title()) for name in SHAPES)
     return Rig(mesh, shapes, deltas.astype(np.float32), FaceInfo("Test head", unit=unit))
+
+
+def partner_rig(folder: Path, rows: int = 36, columns: int = 48) -> Rig:
+    """Another person on the same polygons: dark skin and brown eyes, the seam at another place.
+
+    Its texture coordinates are turned by a third round the head, so that every one is another.
+    """
+    rig = head_rig(folder, rows, columns)
+    mesh = rig.neutral
+    path = folder / "partner.png"
+    with Image.open(mesh.materials["skin"].texture) as own:
+        pixels = np.roll(np.asarray(own, np.float64), -own.width // 3, axis=1)
+    Image.fromarray((pixels * [0.52, 0.44, 0.40]).round().astype(np.uint8)).save(path)
+    uvs = mesh.uvs - np.array([1.0 / 3.0, 0.0], np.float32)
+    materials = {
+        "skin": Material("skin", (1.0, 1.0, 1.0), texture=path),
+        "eye": Material("eye", (0.20, 0.10, 0.05)),
+    }
+    return Rig(
+        replace(mesh, uvs=uvs, materials=materials), rig.shapes, rig.deltas, FaceInfo("Partner", unit="cm")
+    )
 
 
 def many_shapes(count: int, seed: int = 5) -> Rig:

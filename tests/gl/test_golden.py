@@ -19,9 +19,13 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from facemorph.core.glow import glow_of
 from facemorph.core.picture import Look
+from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
+from facemorph.core.scene import Partner, Scene
 from facemorph.gl import Offscreen, sheet
+from tests.gl.heads import partner_rig
 
 FOLDER = Path(__file__).parent / "golden"
 SIZE = (200, 240)
@@ -45,6 +49,29 @@ def test_the_picture_is_the_kept_one(screen: Offscreen, head: Rig, name: str) ->
         pytest.skip("the kept pictures are a software renderer's")
     camera, pose, look = PICTURES[name]
     compare(name, screen.render(head, pose, size=SIZE, camera=camera, look=look))
+
+
+def scenes(head: Rig, partner: Rig) -> dict[str, tuple[str, Scene, Look]]:
+    """What comes on top of a pose."""
+    pose = Pose.of(POSE)
+    below = np.exp(-(((head.neutral.positions[:, 1:2] + 4.5) / 2.5) ** 2))
+    offsets = (below * head.neutral.positions * [0.16, 0.0, 0.06]).astype(np.float32)
+    light = Look(background=(0.85, 0.86, 0.88, 1.0))
+    return {
+        "glow": ("front", Scene(pose, glow=glow_of(head, {"smile": 1.0})), Look()),
+        "glow-clay": ("three-quarter", Scene(pose, glow=glow_of(head, {"brows": 1.0})), Look(shading="clay")),
+        "partner-half": ("front", Scene(pose, offsets, partner=Partner(partner, 0.5)), light),
+        "partner": ("front", Scene(pose, offsets, partner=Partner(partner, 1.0)), light),
+        "difference": ("front", Scene(pose, offsets, reference=head.positions(pose)), Look(shading="heat")),
+    }
+
+
+@pytest.mark.parametrize("name", ["glow", "glow-clay", "partner-half", "partner", "difference"])
+def test_the_scene_is_the_kept_one(screen: Offscreen, head: Rig, folder: Path, name: str) -> None:
+    if not screen.renderer.graphics.software:
+        pytest.skip("the kept pictures are a software renderer's")
+    camera, scene, look = scenes(head, partner_rig(folder))[name]
+    compare(name, screen.render(head, scene, size=SIZE, camera=camera, look=look))
 
 
 def test_the_sheet_is_the_kept_one(screen: Offscreen, head: Rig) -> None:

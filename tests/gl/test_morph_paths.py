@@ -188,7 +188,7 @@ def test_rings_hold_every_triangle_around_a_vertex_turning_its_way() -> None:
 def test_all_of_it_holds_under_plain_gl_3_3(ctx: moderngl.Context) -> None:
     if "mesa" not in str(ctx.info["GL_VERSION"]).lower():
         pytest.skip("only Mesa can be held to a version")
-    files = ["tests/gl/test_morph_paths.py", "tests/gl/test_shadings.py"]
+    files = ["tests/gl/test_morph_paths.py", "tests/gl/test_shadings.py", "tests/gl/test_scenes.py"]
     run = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-n", "0", *files],
         cwd=ROOT,

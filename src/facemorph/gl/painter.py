@@ -174,7 +174,7 @@ class Painter:
         if self._glowing:
             define.append("GLOW")
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
-        by_vertex = self._software and surface.drawn_count >= FINE_MESH and scene["side"] == _OUTSIDE
+        by_vertex = self._software and surface.mesh.vertex_count >= FINE_MESH and scene["side"] == _OUTSIDE
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
         self._draw(surface, part, scene, "skin.frag", [*lit, *define], own)
 

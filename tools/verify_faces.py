@@ -76,7 +76,7 @@ def check_units(folder: Path, report: Report, vertices: int):
     report.require(len(set(units["names"].tolist())) == len(sets), f"{folder}: a unit's name twice")
     report.require(starts[-1] == len(index) == len(units["delta"]), f"{folder}: offsets do not add up")
     for k, name in enumerate(units["names"].tolist()):
-        own = index[starts[k]:starts[k + 1]]
+        own = index[starts[k] : starts[k + 1]]
         fine = len(own) > 0 and bool((np.diff(own) > 0).all()) and own[-1] < vertices
         report.require(fine, f"{folder}: vertices of {name}")
     weights = units["region_weights"].astype(int)
@@ -113,8 +113,10 @@ def check_person(folder: Path, report: Report, tail: str, triangles: np.ndarray)
     travel = max(np.linalg.norm(p - points["neutral"], axis=1).max() for p in points.values())
     size = sum(path.stat().st_size for path in folder.iterdir()) / MEGABYTE
     low, high = points["neutral"].min(0), points["neutral"].max(0)
-    print(f"{folder.name:6}{vertices:9}{len(triangles):11}{tail.count(chr(10) + 'vt ') + 1:8}{len(marks):11}"
-          f"{high[1] - low[1]:11.1f}{travel:13.2f}{size:8.2f}")
+    print(
+        f"{folder.name:6}{vertices:9}{len(triangles):11}{tail.count(chr(10) + 'vt ') + 1:8}{len(marks):11}"
+        f"{high[1] - low[1]:11.1f}{travel:13.2f}{size:8.2f}"
+    )
     return marks
 
 

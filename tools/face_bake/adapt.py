@@ -135,8 +135,13 @@ def _patches(corner, edge, middle, split, chosen) -> list[list[int]]:
 def _polygons(coarse, refinement, split, chosen) -> list[list[int]]:
     result = []
     for k in range(len(coarse)):
-        result += _patches(coarse[k].tolist(), refinement.edge_of[k].tolist(), int(refinement.face_of[k]),
-                           split[k], bool(chosen[k]))
+        result += _patches(
+            coarse[k].tolist(),
+            refinement.edge_of[k].tolist(),
+            int(refinement.face_of[k]),
+            split[k],
+            bool(chosen[k]),
+        )
     return result
 
 

@@ -6,8 +6,11 @@ from .cage import BUST, HEAD, MOUTH, SOCKET_A, SOCKET_B, Cage
 
 # Left, bottom, right, top of each island in the picture.
 BOXES = {
-    HEAD: (0.004, 0.17, 0.996, 0.996), MOUTH: (0.01, 0.01, 0.17, 0.155), BUST: (0.33, 0.01, 0.99, 0.155),
-    SOCKET_A: (0.18, 0.01, 0.245, 0.155), SOCKET_B: (0.255, 0.01, 0.32, 0.155),
+    HEAD: (0.004, 0.17, 0.996, 0.996),
+    MOUTH: (0.01, 0.01, 0.17, 0.155),
+    BUST: (0.33, 0.01, 0.99, 0.155),
+    SOCKET_A: (0.18, 0.01, 0.245, 0.155),
+    SOCKET_B: (0.255, 0.01, 0.32, 0.155),
 }
 FACE_CENTRE = np.array([0.885, 0.483])
 FACE_RADIUS = 0.34

@@ -8,8 +8,9 @@ from .people import Look
 HAIRS = 520
 # x and y of the brow's middle line from the nose outwards, how much of the arch each point takes,
 # and how much of the lowering (or raising) of the inner end.
-CURVE = np.array([(0.090, 7.452), (0.16, 7.464), (0.25, 7.474), (0.34, 7.486), (0.43, 7.484), (0.50, 7.460),
-                  (0.56, 7.428)])
+CURVE = np.array(
+    [(0.090, 7.452), (0.16, 7.464), (0.25, 7.474), (0.34, 7.486), (0.43, 7.484), (0.50, 7.460), (0.56, 7.428)]
+)
 ARCH = np.array([0, 0, 0.4, 1, 1, 0.5, 0])
 INNER = np.array([1, 0.7, 0.3, 0, 0, 0, 0])
 HALF_WIDTH = ([0, 0.12, 0.5, 0.75, 1], [0.020, 0.027, 0.024, 0.017, 0.006])

@@ -59,5 +59,17 @@ def build_fine_mesh(base: BaseMesh, cage: Cage) -> FineMesh:
     operator = (smooth.operator @ cage.cut[used].tocsr()).tocsr()
     on_head = np.zeros(operator.shape[0], bool)
     on_head[quads[island == HEAD].ravel()] = True
-    return FineMesh(operator, coarse, coarse_uv, cage.island, smooth, flat, quads, flat.quads(coarse_uv),
-                    flat.operator @ atlas, flat.operator @ base.uv[used_uv], island, on_head)
+    return FineMesh(
+        operator,
+        coarse,
+        coarse_uv,
+        cage.island,
+        smooth,
+        flat,
+        quads,
+        flat.quads(coarse_uv),
+        flat.operator @ atlas,
+        flat.operator @ base.uv[used_uv],
+        island,
+        on_head,
+    )

@@ -49,8 +49,10 @@ class Head:
         self.seal = LipSeal(self.cage, base.points)
         self.skin = self._adapt()
         self._eye_points, eye_uv, eye_triangles = eye_mesh()
-        self._teeth = [Teeth(base.faces[f"helper-{arch}-teeth"], base.points, arch == "upper")
-                       for arch in ("upper", "lower")]
+        self._teeth = [
+            Teeth(base.faces[f"helper-{arch}-teeth"], base.points, arch == "upper")
+            for arch in ("upper", "lower")
+        ]
         self._tongue = Tongue(base.faces["helper-tongue"], base.points)
         self.lashes = self._make_lashes()
         self.groups, self.uv = self._layout(eye_uv, eye_triangles)
@@ -68,9 +70,17 @@ class Head:
         base, rng = self.source.base, np.random.default_rng(3)
         centres = {side: base.points[ids].mean(0) for side, ids in zip("lr", EYE_VERTICES, strict=True)}
         upper_strip, lower_strip = 2, 1
-        return [Lashes(base.faces[f"helper-{side}-eyelashes-{strip}"], base.points, centres[side],
-                       strip == upper_strip, rng)
-                for side in "lr" for strip in (upper_strip, lower_strip)]
+        return [
+            Lashes(
+                base.faces[f"helper-{side}-eyelashes-{strip}"],
+                base.points,
+                centres[side],
+                strip == upper_strip,
+                rng,
+            )
+            for side in "lr"
+            for strip in (upper_strip, lower_strip)
+        ]
 
     def _layout(self, eye_uv, eye_triangles) -> tuple[list[Group], np.ndarray]:
         lash_triangles, offset = [], 0
@@ -131,6 +141,10 @@ class Body:
     def positions(self, shape: np.ndarray) -> np.ndarray:
         """Every vertex of the file (V, 3), in the order of the groups."""
         head = self.head
-        parts = [self.fine_skin(shape)[head.skin.pick], *self.solids(shape),
-                 head._tongue.place(shape, self._neutral), *(lashes.place(shape) for lashes in head.lashes)]
+        parts = [
+            self.fine_skin(shape)[head.skin.pick],
+            *self.solids(shape),
+            head._tongue.place(shape, self._neutral),
+            *(lashes.place(shape) for lashes in head.lashes),
+        ]
         return (np.concatenate(parts) - self._origin) * CENTIMETRES

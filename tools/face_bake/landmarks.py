@@ -98,8 +98,14 @@ def _eyes(head: Head) -> dict[int, int]:
         loop = _Loop(head, rim)
         first = 36 if base[rim, 0].mean() < 0 else 42
         third, two_thirds = 1 / 3, 2 / 3
-        vertices = [loop.right, loop.at(third, True), loop.at(two_thirds, True), loop.left,
-                    loop.at(two_thirds, False), loop.at(third, False)]
+        vertices = [
+            loop.right,
+            loop.at(third, True),
+            loop.at(two_thirds, True),
+            loop.left,
+            loop.at(two_thirds, False),
+            loop.at(third, False),
+        ]
         found |= {first + k: vertex for k, vertex in enumerate(vertices)}
     return found
 

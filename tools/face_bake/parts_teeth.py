@@ -60,8 +60,9 @@ class Teeth:
     def place(self, shape: np.ndarray) -> np.ndarray:
         """Points (rows * columns, 3) in base-mesh space."""
         gum, down, out = self._frame(shape)
-        rows = [gum + down * height + out * depth
-                for height, depth in (self._row(k) for k in range(len(HEIGHTS)))]
+        rows = [
+            gum + down * height + out * depth for height, depth in (self._row(k) for k in range(len(HEIGHTS)))
+        ]
         return np.array(rows).reshape(-1, 3)
 
     def _frame(self, shape):

@@ -10,8 +10,13 @@ from .phenotype import Phenotype
 # MakeHuman's young adults part their lips and lower their brows; this closes and lifts them.
 REST = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.32, "mh:eyebrows-up": 0.10}
 # The men's inner brows already sit high and their lids low: lifting those more would look worried.
-REST_OF_MEN = {"mh:mouth-parling": -0.30, "arkit:browInnerUp": 0.12, "mh:eyebrows-up": 0.16,
-               "mh:eyebrows-extern-up": 0.18, "mh:eye-opened-up": 0.20}
+REST_OF_MEN = {
+    "mh:mouth-parling": -0.30,
+    "arkit:browInnerUp": 0.12,
+    "mh:eyebrows-up": 0.16,
+    "mh:eyebrows-extern-up": 0.18,
+    "mh:eye-opened-up": 0.20,
+}
 
 
 @dataclass(frozen=True)
@@ -50,54 +55,132 @@ class Person:
 
 
 ADA = Person(
-    "ada", "Ada", "A young woman with fair, freckled skin, brown hair and blue-grey eyes.",
+    "ada",
+    "Ada",
+    "A young woman with fair, freckled skin, brown hair and blue-grey eyes.",
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"caucasian": 1.0}),
-    Look(skin=(0.90, 0.72, 0.62), lips=(0.78, 0.42, 0.40), hair=(0.26, 0.15, 0.09), brow=(0.25, 0.15, 0.10),
-         iris=(0.28, 0.42, 0.50), hair_style="back", feminine=True, brow_thickness=0.85, brow_arch=0.012,
-         freckles=0.5),
-    {"mouth/mouth-upperlip-volume-incr": 0.5, "mouth/mouth-lowerlip-volume-incr": 0.4,
-     "nose/nose-scale-horiz-decr": 0.35, "nose/nose-hump-decr": 0.3, "head/head-oval": 0.4,
-     "mouth/mouth-angles-up": 0.25, "nose/nose-point-up": 0.3},
+    Look(
+        skin=(0.90, 0.72, 0.62),
+        lips=(0.78, 0.42, 0.40),
+        hair=(0.26, 0.15, 0.09),
+        brow=(0.25, 0.15, 0.10),
+        iris=(0.28, 0.42, 0.50),
+        hair_style="back",
+        feminine=True,
+        brow_thickness=0.85,
+        brow_arch=0.012,
+        freckles=0.5,
+    ),
+    {
+        "mouth/mouth-upperlip-volume-incr": 0.5,
+        "mouth/mouth-lowerlip-volume-incr": 0.4,
+        "nose/nose-scale-horiz-decr": 0.35,
+        "nose/nose-hump-decr": 0.3,
+        "head/head-oval": 0.4,
+        "mouth/mouth-angles-up": 0.25,
+        "nose/nose-point-up": 0.3,
+    },
 )
 BEN = Person(
-    "ben", "Ben", "A man of about thirty with fair skin, short brown hair, stubble and hazel eyes.",
-    Phenotype(gender=1.0, age=0.56, muscle=0.55, proportions=0.9,
-              descent={"caucasian": 0.85, "african": 0.15}),
-    Look(skin=(0.84, 0.66, 0.56), lips=(0.70, 0.42, 0.39), hair=(0.17, 0.11, 0.08), brow=(0.17, 0.11, 0.08),
-         iris=(0.33, 0.25, 0.14), brow_thickness=1.15, brow_arch=-0.006, stubble=0.75, blush=0.7),
-    {"nose/nose-scale-vert-decr": 0.3, "head/head-square": 0.35, "mouth/mouth-angles-up": 0.2,
-     "chin/chin-width-incr": 0.2},
+    "ben",
+    "Ben",
+    "A man of about thirty with fair skin, short brown hair, stubble and hazel eyes.",
+    Phenotype(
+        gender=1.0, age=0.56, muscle=0.55, proportions=0.9, descent={"caucasian": 0.85, "african": 0.15}
+    ),
+    Look(
+        skin=(0.84, 0.66, 0.56),
+        lips=(0.70, 0.42, 0.39),
+        hair=(0.17, 0.11, 0.08),
+        brow=(0.17, 0.11, 0.08),
+        iris=(0.33, 0.25, 0.14),
+        brow_thickness=1.15,
+        brow_arch=-0.006,
+        stubble=0.75,
+        blush=0.7,
+    ),
+    {
+        "nose/nose-scale-vert-decr": 0.3,
+        "head/head-square": 0.35,
+        "mouth/mouth-angles-up": 0.2,
+        "chin/chin-width-incr": 0.2,
+    },
     rest=REST_OF_MEN,
 )
 MEI = Person(
-    "mei", "Mei", "A young woman with light skin, black hair and dark brown eyes.",
+    "mei",
+    "Mei",
+    "A young woman with light skin, black hair and dark brown eyes.",
     Phenotype(gender=0.05, muscle=0.45, proportions=1.0, descent={"asian": 1.0}),
-    Look(skin=(0.91, 0.75, 0.62), lips=(0.76, 0.42, 0.40), hair=(0.06, 0.05, 0.05), brow=(0.10, 0.07, 0.06),
-         iris=(0.20, 0.11, 0.06), hair_style="back", feminine=True, brow_thickness=0.8, brow_arch=0.004),
+    Look(
+        skin=(0.91, 0.75, 0.62),
+        lips=(0.76, 0.42, 0.40),
+        hair=(0.06, 0.05, 0.05),
+        brow=(0.10, 0.07, 0.06),
+        iris=(0.20, 0.11, 0.06),
+        hair_style="back",
+        feminine=True,
+        brow_thickness=0.8,
+        brow_arch=0.004,
+    ),
     {"mouth/mouth-angles-up": 0.25, "head/head-oval": 0.3, "mouth/mouth-upperlip-volume-incr": 0.3},
 )
 KOFI = Person(
-    "kofi", "Kofi", "A young man with dark brown skin, black cropped hair and dark eyes.",
+    "kofi",
+    "Kofi",
+    "A young man with dark brown skin, black cropped hair and dark eyes.",
     Phenotype(gender=1.0, muscle=0.6, proportions=1.0, descent={"african": 1.0}),
-    Look(skin=(0.42, 0.27, 0.19), lips=(0.44, 0.25, 0.22), hair=(0.05, 0.04, 0.035), brow=(0.05, 0.035, 0.03),
-         iris=(0.14, 0.08, 0.05), hair_style="buzz", hair_strength=0.93, brow_thickness=1.05,
-         lip_strength=0.7, lid=(0.88, 0.84, 0.82), stubble=0.35),
+    Look(
+        skin=(0.42, 0.27, 0.19),
+        lips=(0.44, 0.25, 0.22),
+        hair=(0.05, 0.04, 0.035),
+        brow=(0.05, 0.035, 0.03),
+        iris=(0.14, 0.08, 0.05),
+        hair_style="buzz",
+        hair_strength=0.93,
+        brow_thickness=1.05,
+        lip_strength=0.7,
+        lid=(0.88, 0.84, 0.82),
+        stubble=0.35,
+    ),
     {"mouth/mouth-angles-up": 0.25},
     rest=REST_OF_MEN,
 )
 ZOLA = Person(
-    "zola", "Zola", "A young woman with brown skin, cropped black hair and brown eyes.",
+    "zola",
+    "Zola",
+    "A young woman with brown skin, cropped black hair and brown eyes.",
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"african": 0.8, "caucasian": 0.2}),
-    Look(skin=(0.52, 0.34, 0.25), lips=(0.55, 0.28, 0.27), hair=(0.055, 0.04, 0.035), brow=(0.06, 0.04, 0.03),
-         iris=(0.16, 0.09, 0.05), hair_style="buzz", feminine=True, brow_thickness=0.85, brow_arch=0.012,
-         lip_strength=0.8, lid=(0.88, 0.82, 0.80)),
+    Look(
+        skin=(0.52, 0.34, 0.25),
+        lips=(0.55, 0.28, 0.27),
+        hair=(0.055, 0.04, 0.035),
+        brow=(0.06, 0.04, 0.03),
+        iris=(0.16, 0.09, 0.05),
+        hair_style="buzz",
+        feminine=True,
+        brow_thickness=0.85,
+        brow_arch=0.012,
+        lip_strength=0.8,
+        lid=(0.88, 0.82, 0.80),
+    ),
     {"mouth/mouth-angles-up": 0.25},
 )
 OMAR = Person(
-    "omar", "Omar", "A man past fifty with tanned skin, short grey hair, stubble and brown eyes.",
+    "omar",
+    "Omar",
+    "A man past fifty with tanned skin, short grey hair, stubble and brown eyes.",
     Phenotype(gender=0.95, age=0.72, weight=0.55, descent={"caucasian": 0.6, "asian": 0.25, "african": 0.15}),
-    Look(skin=(0.74, 0.55, 0.43), lips=(0.62, 0.36, 0.33), hair=(0.42, 0.40, 0.39), brow=(0.24, 0.22, 0.21),
-         iris=(0.22, 0.14, 0.08), brow_thickness=1.2, stubble=0.6, blush=0.6),
+    Look(
+        skin=(0.74, 0.55, 0.43),
+        lips=(0.62, 0.36, 0.33),
+        hair=(0.42, 0.40, 0.39),
+        brow=(0.24, 0.22, 0.21),
+        iris=(0.22, 0.14, 0.08),
+        brow_thickness=1.2,
+        stubble=0.6,
+        blush=0.6,
+    ),
     {"mouth/mouth-angles-up": 0.2},
     rest=REST_OF_MEN,
 )

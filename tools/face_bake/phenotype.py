@@ -50,8 +50,9 @@ def body_offsets(source: Source, body: Phenotype) -> np.ndarray:
     descent = body.descent_weights()
     for (people, a), (sex, b), (age, c) in product(descent.items(), genders.items(), ages.items()):
         total += a * b * c * source.target(f"macrodetails/{people}-{sex}-{age}")
-    builds = product(genders.items(), ages.items(), blend(body.muscle, MUSCLE).items(),
-                     blend(body.weight, WEIGHT).items())
+    builds = product(
+        genders.items(), ages.items(), blend(body.muscle, MUSCLE).items(), blend(body.weight, WEIGHT).items()
+    )
     for (sex, a), (age, b), (muscle, c), (weight, d) in builds:
         share, name = a * b * c * d, f"{sex}-{age}-{muscle}-{weight}"
         total += share * source.target(f"macrodetails/universal-{name}")

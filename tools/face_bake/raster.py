@@ -33,7 +33,7 @@ class Raster:
         second = ((c[1] - a[1]) * x + (a[0] - c[0]) * y) / area
         weights = np.stack([first, second, 1 - first - second], -1)
         hit = (weights >= -1e-3).all(-1)
-        window = np.s_[low[1]:high[1], low[0]:high[0]]
+        window = np.s_[low[1] : high[1], low[0] : high[0]]
         self._owner[window][hit] = index
         self._weights[window][hit] = weights[hit]
 

@@ -29,8 +29,10 @@ def _front(points: np.ndarray) -> np.ndarray:
 def _shares(points: np.ndarray) -> np.ndarray:
     """What each region claims (n, R) of every point; the claims add up to 1."""
     across, up = np.abs(points[:, 0]), points[:, 1]
-    claims = [sum(np.exp(-(((across - x) / a) ** 2) - ((up - y) / b) ** 2) for x, y, a, b in spots)
-              for spots in SPOTS.values()]
+    claims = [
+        sum(np.exp(-(((across - x) / a) ** 2) - ((up - y) / b) ** 2) for x, y, a, b in spots)
+        for spots in SPOTS.values()
+    ]
     # The tiny constant keeps points far from every spot defined.
     claims = np.stack(claims, -1) ** SHARPNESS + 1e-30
     return claims / claims.sum(1, keepdims=True)

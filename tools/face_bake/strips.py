@@ -50,8 +50,12 @@ def catmull_rom(count: int, at: np.ndarray) -> np.ndarray:
     at = np.asarray(at, float)
     left = np.clip(np.floor(at).astype(int), 0, count - 2)
     t = at - left
-    basis = [(-t + 2 * t**2 - t**3) / 2, (2 - 5 * t**2 + 3 * t**3) / 2,
-             (t + 4 * t**2 - 3 * t**3) / 2, (-t**2 + t**3) / 2]
+    basis = [
+        (-t + 2 * t**2 - t**3) / 2,
+        (2 - 5 * t**2 + 3 * t**3) / 2,
+        (t + 4 * t**2 - 3 * t**3) / 2,
+        (-(t**2) + t**3) / 2,
+    ]
     weights, rows = np.zeros((len(at), count)), np.arange(len(at))
     for shift, value in zip((-1, 0, 1, 2), basis, strict=True):
         index = left + shift

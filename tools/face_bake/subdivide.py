@@ -73,15 +73,21 @@ def _smooth_old(n, faces, edges, count, face_mid, edge_mid) -> sp.csr_matrix:
     vertex_edges = _selection(edges.ravel(), np.repeat(np.arange(e), 2), (n, e))
     face_valence = np.asarray(vertex_faces.sum(1)).ravel()
     valence = np.maximum(np.asarray(vertex_edges.sum(1)).ravel(), 1)
-    inside = (sp.diags(1 / valence / np.maximum(face_valence, 1)) @ vertex_faces @ face_mid
-              + sp.diags(2 / valence**2) @ vertex_edges @ edge_mid + sp.diags((valence - 3) / valence))
+    inside = (
+        sp.diags(1 / valence / np.maximum(face_valence, 1)) @ vertex_faces @ face_mid
+        + sp.diags(2 / valence**2) @ vertex_edges @ edge_mid
+        + sp.diags((valence - 3) / valence)
+    )
     border_edges = np.flatnonzero(count != 2)
     touching = _selection(edges[border_edges].ravel(), np.repeat(border_edges, 2), (n, e))
     border_valence = np.asarray(touching.sum(1)).ravel()
     border = 0.5 * sp.identity(n) + 0.5 * sp.diags(1 / np.maximum(border_valence, 1)) @ touching @ edge_mid
     lonely, on_border = face_valence == 0, border_valence > 0
-    return (sp.diags((~on_border & ~lonely).astype(float)) @ inside
-            + sp.diags((on_border & ~lonely).astype(float)) @ border + sp.diags(lonely.astype(float)))
+    return (
+        sp.diags((~on_border & ~lonely).astype(float)) @ inside
+        + sp.diags((on_border & ~lonely).astype(float)) @ border
+        + sp.diags(lonely.astype(float))
+    )
 
 
 def compact(faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -29,14 +29,18 @@ class Painter:
         lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 1.3, source_uv) * 1.25 - 0.12, 0, 1)
         ears = mask_at(head.source.mask("mpfb_ears.jpg"), 3, source_uv)
         outside = island == HEAD
-        self._canvas = Canvas(points, lips * outside, ears * outside, (island == MOUTH).astype(np.float32),
-                              upper, lower)
+        self._canvas = Canvas(
+            points, lips * outside, ears * outside, (island == MOUTH).astype(np.float32), upper, lower
+        )
 
     def _lid_distance(self, points: np.ndarray, upper: bool) -> np.ndarray:
         """Distance (p,) to the edge of the upper or lower lids; only measured near the eyes."""
         base = self._head.source.base.points
-        edge = [catmull_rom(len(lashes.lid), np.linspace(0, len(lashes.lid) - 1, 160)) @ base[lashes.lid]
-                for lashes in self._head.lashes if lashes.upper == upper]
+        edge = [
+            catmull_rom(len(lashes.lid), np.linspace(0, len(lashes.lid) - 1, 160)) @ base[lashes.lid]
+            for lashes in self._head.lashes
+            if lashes.upper == upper
+        ]
         distance = np.full(len(points), FAR, np.float32)
         near = (np.abs(points[:, 1] - 7.3) < 0.25) & (points[:, 2] > 1.1)
         distance[near] = cKDTree(np.concatenate(edge)).query(points[near])[0]
@@ -46,8 +50,10 @@ class Painter:
         """The skin of a person with the occlusion of the neutral face baked in."""
         neutral = body.shaper.neutral
         groups = self._head.groups[1:5]
-        blockers = [(points, group.triangles - group.first)
-                    for points, group in zip(body.solids(neutral), groups, strict=True)]
+        blockers = [
+            (points, group.triangles - group.first)
+            for points, group in zip(body.solids(neutral), groups, strict=True)
+        ]
         light = visible_sky(body.fine_skin(neutral), self._triangles, blockers, self._head.fine.averaging())
         colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
         return Image.fromarray(self._raster.picture(colours))

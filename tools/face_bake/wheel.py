@@ -33,8 +33,10 @@ def verify(path: Path) -> Path:
         raise WheelError(f"no such wheel: {path}")
     found = sha256_of(path)
     if found != SHA256:
-        raise WheelError(f"{path.name} is not the pinned {REQUIREMENT} wheel (sha256 {found[:16]}..., "
-                         f"expected {SHA256[:16]}...)")
+        raise WheelError(
+            f"{path.name} is not the pinned {REQUIREMENT} wheel (sha256 {found[:16]}..., "
+            f"expected {SHA256[:16]}...)"
+        )
     return path
 
 

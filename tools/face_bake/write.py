@@ -11,8 +11,10 @@ CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika 
 LICENCE = "CC0-1.0"
 # Colour (linear light), shine, exponent and picture.
 MATERIALS = {
-    "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"), "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
-    "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"), "tongue": ((0.32, 0.06, 0.055), 0.3, 30, None),
+    "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"),
+    "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
+    "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"),
+    "tongue": ((0.32, 0.06, 0.055), 0.3, 30, None),
     "lash": ((0.005, 0.0035, 0.003), 0.0, 10, None),
 }
 
@@ -29,8 +31,11 @@ def layout_text(head: Head) -> str:
 
 def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
     """Points (V, 3) in centimetres."""
-    head = [f"# {title}, facemorph bundled face; centimetres, Y up, looking along +Z",
-            f"# {LICENCE}; from {CREDIT}", "mtllib face.mtl"]
+    head = [
+        f"# {title}, facemorph bundled face; centimetres, Y up, looking along +Z",
+        f"# {LICENCE}; from {CREDIT}",
+        "mtllib face.mtl",
+    ]
     # Adding zero turns -0.0 into 0.0, so that rounding never writes "-0.0000".
     rounded = np.round(points, 4) + 0.0
     vertices = [f"v {x:.4f} {y:.4f} {z:.4f}" for x, y, z in rounded.tolist()]
@@ -47,11 +52,23 @@ def write_mtl(path: Path):
 
 
 def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list):
-    lines = [f'name = "{person.name}"', f'description = "{person.description}"', f'credit = "{CREDIT}"',
-             f'licence = "{LICENCE}"', 'unit = "cm"', 'neutral = "neutral.obj"', 'shapes = "shapes.npz"']
+    lines = [
+        f'name = "{person.name}"',
+        f'description = "{person.description}"',
+        f'credit = "{CREDIT}"',
+        f'licence = "{LICENCE}"',
+        'unit = "cm"',
+        'neutral = "neutral.obj"',
+        'shapes = "shapes.npz"',
+    ]
     for name in expressions:
-        lines += ["", "[[expressions]]", f'name = "{name}"', f'label = "{name.capitalize()}"',
-                  f'file = "{name}.obj"']
+        lines += [
+            "",
+            "[[expressions]]",
+            f'name = "{name}"',
+            f'label = "{name.capitalize()}"',
+            f'file = "{name}.obj"',
+        ]
     for landmark in landmarks:
         lines += ["", "[[landmarks]]", f'name = "{landmark.name}"', f"vertex = {landmark.vertex}"]
         lines += [f'mpeg4 = "{landmark.mpeg4}"'] if landmark.mpeg4 else []

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from facemorph.core.pose import Pose
 from facemorph.deform.controls import Controls
+from facemorph.deform.regions import RegionSet
 from facemorph.ui.words import change_words
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ class Snapshot:
     pose: Pose
     shapes_on: bool
     controls: Controls = field(default_factory=Controls)
+    painted: RegionSet | None = None
 
 
 @dataclass

@@ -12,6 +12,7 @@ from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene
 from facemorph.deform.controls import METHODS, BoundControls, Controls
+from facemorph.deform.regions import RegionSet
 from facemorph.errors import FacemorphError
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ class Methods:
     people: dict[str, Rig] = field(default_factory=dict)
     hovered: Mapping[str, float] = field(default_factory=dict)
     _bound: BoundControls | None = None
+    _painted: RegionSet | None = None
     _key: tuple[object, ...] = ()
     _scene: Scene | None = None
     _glow: tuple[tuple[tuple[str, float], ...], Float32 | None] = ((), None)
@@ -38,24 +40,25 @@ class Methods:
         """What to draw now. A method that cannot do what it is set to is switched off, and says why."""
         if app.face is None:
             return Scene(app.pose)
-        self._bind(app.face.rig, app.face.title)
+        self._bind(app.face.rig, app.face.title, app.painted)
         key = (app.face, app.shown_pose, app.controls, tuple(self.people))
         if self._scene is None or key != self._key:
             self._scene, self._key = self._made(app, app.shown_pose), key
-        return replace(self._scene, glow=self._lit(app.face.rig))
+        lit = app.on_face.glow
+        return replace(self._scene, glow=self._lit(app.face.rig) if lit is None else lit)
 
     def bound(self, app: App) -> BoundControls:
         """The methods bound to the present face, which must be there."""
         assert app.face is not None
-        return self._bind(app.face.rig, app.face.title)
+        return self._bind(app.face.rig, app.face.title, app.painted)
 
     def forget(self) -> None:
         """Nothing of what was bound holds any longer: people were loaded, or regions painted."""
         self._bound, self._key = None, ()
 
-    def _bind(self, rig: Rig, name: str) -> BoundControls:
-        if self._bound is None or self._bound.rig is not rig:
-            self._bound = BoundControls(rig, name, self.people)
+    def _bind(self, rig: Rig, name: str, painted: RegionSet | None) -> BoundControls:
+        if self._bound is None or self._bound.rig is not rig or self._painted is not painted:
+            self._bound, self._painted = BoundControls(rig, name, self.people, painted), painted
             self._key = ()
         return self._bound
 

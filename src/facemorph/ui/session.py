@@ -9,77 +9,25 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol
 
 import numpy as np
 from imgui_bundle import imgui
 
-from facemorph.core.arrays import UInt8
 from facemorph.core.camera import Camera
-from facemorph.core.picture import Look
-from facemorph.core.pose import Pose
-from facemorph.core.rig import Rig
 from facemorph.core.scene import Scene
-from facemorph.errors import FacemorphError
-from facemorph.gl.describe import Graphics
-from facemorph.gl.heat import Legend
+from facemorph.errors import FacemorphError, GraphicsError
 from facemorph.ui import actions, fonts, theme
 from facemorph.ui.draw import draw_ui
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
+from facemorph.ui.plots import release_plots
+from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
 
-if TYPE_CHECKING:
-    import moderngl
-
-    from facemorph.gl.picking import Pick
-
-Quality = Literal["full", "fast"]
 TURNTABLE_DEGREES_PER_SEC = 36.0
 # After a pause the clock has run on; an animation goes on from where it was and does not leap.
 LONGEST_STEP_SECS = 0.25
-
-
-class DrawsFaces(Protocol):
-    """What the session needs of `gl.Renderer`; tests may put a stand-in here."""
-
-    graphics: Graphics
-
-    def load(self, rig: Rig) -> None:
-        """Take a rig."""
-
-    def draw(
-        self,
-        what: Scene | Pose,
-        camera: Camera,
-        look: Look,
-        size: tuple[int, int],
-        *,
-        quality: Quality = "full",
-    ) -> None:
-        """Draw it."""
-
-    def read(self) -> UInt8:
-        """The picture drawn last."""
-
-    @property
-    def texture(self) -> moderngl.Texture:
-        """The picture drawn last, for the window."""
-
-    @property
-    def legend(self) -> Legend | None:
-        """Of the picture drawn last."""
-
-    @property
-    def problems(self) -> tuple[str, ...]:
-        """What of the face cannot be shown."""
-
-    def pick(self, x: float, y: float) -> Pick | None:
-        """What lies at a pixel of the picture drawn last, from its top left."""
-
-    def release(self) -> None:
-        """Give everything back."""
 
 
 class Session:
@@ -88,8 +36,10 @@ class Session:
     def __init__(
         self, app: App, renderer: DrawsFaces, thumbnails: Thumbnails | None = None,
         clock: Callable[[], float] = time.monotonic,
+        second: Callable[[], DrawsFaces] | None = None,
     ) -> None:  # fmt: skip
         self.app = app
+        self.split = SplitView(second or (lambda: _another(renderer)))
         self.renderer = renderer
         self.thumbnails = thumbnails
         self._clock = clock
@@ -113,7 +63,7 @@ class Session:
         draw_ui(app)
         self._fulfil(app)
         self._draw_face(app)
-        busy = imgui.is_any_item_active() or nudging() or app.playback.playing
+        busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
         app.history.settle(app.snapshot(), busy=busy)
 
     def wants_frame_in(self) -> float | None:
@@ -131,6 +81,8 @@ class Session:
     def close(self) -> None:
         """Stop all work and give back what draws."""
         self.app.jobs.close()
+        self.split.release()
+        release_plots()
         if self.app.chooser.dialog is not None:
             self.app.chooser.dialog.close()
         if self.thumbnails is not None:
@@ -188,7 +140,7 @@ class Session:
             app.pick_at = app.picture_path = None
             return
         if app.framing is not None:
-            app.camera = Camera.framing(app.face.rig.neutral.bounds, app.framing, app.viewport.aspect)
+            app.camera = Camera.framing(app.face.rig.neutral.bounds, app.framing, app.views()[0].aspect)
             app.framing = None
         if app.pick_at is not None:
             (x, y), app.pick_at = app.pick_at, None
@@ -201,7 +153,7 @@ class Session:
             return
         if app.face is not self._loaded:
             self._load(app.face)
-        view = app.viewport
+        view = app.views()[0]
         # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
         moving = bool(app.drag) or app.playback.playing or app.turntable or imgui.is_any_item_active()
         quality: Quality = "fast" if moving and app.picture_path is None else "full"
@@ -211,6 +163,7 @@ class Session:
             scene.pose,
             id(scene.offsets),
             id(scene.glow),
+            id(scene.reference),
             partner_key(scene),
             app.camera,
             app.look,
@@ -222,9 +175,9 @@ class Session:
             self._drawn = (*wanted, quality)
         self._hurried = False
         self._legend(app)
-        low, high = (view.x, view.y), (view.x + view.width, view.y + view.height)
-        texture = imgui.ImTextureRef(self.renderer.texture.glo)
-        imgui.get_background_draw_list().add_image(texture, low, high, (0, 1), (1, 0))
+        show(self.renderer, view)
+        if app.on_face.split is not None:
+            self._hurried |= self.split.draw(app, app.on_face.split, quality)
         self._save(app)
 
     def _legend(self, app: App) -> None:
@@ -239,6 +192,9 @@ class Session:
             actions.write_picture(app, path, self.renderer.read(), self.renderer.legend)
 
 
-def partner_key(scene: Scene) -> tuple[object, float]:
-    """What tells whether the colours mixed in are the same."""
-    return (scene.partner.rig, scene.partner.s) if scene.partner else (None, 0.0)
+def _another(renderer: DrawsFaces) -> DrawsFaces:
+    from facemorph.gl import Renderer
+
+    if not isinstance(renderer, Renderer):
+        raise GraphicsError("only facemorph's own renderer can show the face twice.")
+    return Renderer(renderer.ctx)

@@ -16,12 +16,14 @@ from facemorph.core.pose import Pose, state_of
 from facemorph.core.rig import EXPRESSION, Rig, Shape
 from facemorph.core.scene import Scene
 from facemorph.deform.controls import Controls
+from facemorph.deform.regions import RegionSet
 from facemorph.gl.describe import Graphics
 from facemorph.gl.heat import Legend
 from facemorph.ui.history import History, Snapshot
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.messages import Messages
 from facemorph.ui.methods import Methods
+from facemorph.ui.on_face import OnFace
 from facemorph.ui.playback import Playback
 from facemorph.ui.settings import Settings
 
@@ -129,10 +131,13 @@ class App:
     shapes_on: bool = True
     controls: Controls = field(default_factory=Controls)  # what the methods beside the shapes are set to
     methods: Methods = field(default_factory=Methods)
+    painted: RegionSet | None = None  # regions painted on the face, in place of the rig's own
+    on_face: OnFace = field(default_factory=OnFace)
     camera: Camera = field(default_factory=Camera)
     look: Look = field(default_factory=Look)
     turntable: bool = False
     legend: Legend | None = None  # of the heat map as drawn last
+    second_legend: Legend | None = None  # of the second view's, where the face is seen twice
     viewport: Viewport = field(default_factory=Viewport)
 
     shapes: ShapesPanel = field(default_factory=ShapesPanel)
@@ -144,7 +149,8 @@ class App:
     typing: str = ""  # the slider whose value is being typed
     typing_fresh: bool = False  # the field has yet to take the keyboard
     builtins: tuple[str, ...] = ()  # names of the built-in faces
-    drag: str = ""  # what the mouse does to the face: "orbit", "pan" or nothing
+    drag: str = ""  # what the mouse does to the face: "orbit", "pan", "tool" (the page's), or none
+    pressed_at: tuple[float, float] | None = None  # of the left button, while it may be a click
     face_pictures: dict[str, int] = field(default_factory=dict)  # built-in's name -> texture
 
     arriving: Face | None = None  # loaded, and to be shown if the renderer takes it
@@ -170,9 +176,21 @@ class App:
         """The pose that is drawn, saved and exported: without the shapes where they are switched off."""
         return self.pose if self.shapes_on else replace(self.pose, weights={})
 
+    def views(self) -> tuple[Viewport, ...]:
+        """The viewport, or its two halves where the face is seen twice."""
+        view = self.viewport
+        if self.on_face.split is None:
+            return (view,)
+        half = view.width / 2.0
+        return replace(view, width=half), replace(view, x=view.x + half, width=half)
+
+    def view_at(self, x: float, y: float) -> Viewport:
+        """The view that holds a place of the window, or the first."""
+        return next((view for view in self.views() if view.contains(x, y)), self.views()[0])
+
     def scene(self) -> Scene:
         """What is drawn, saved and exported: the shown pose with what all methods add."""
-        return self.methods.scene(self)
+        return self.on_face.scene or self.methods.scene(self)
 
     def shown_state(self) -> dict[str, float]:
         """Shape name -> weight of all that is drawn."""
@@ -184,14 +202,14 @@ class App:
 
     def snapshot(self) -> Snapshot:
         """What undo would bring back."""
-        return Snapshot(self.face, self.pose, self.shapes_on, self.controls)
+        return Snapshot(self.face, self.pose, self.shapes_on, self.controls, self.painted)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Bring back a snapshot; another face is framed anew."""
-        if snapshot.face is not self.face:
+        if not same_head(snapshot.face, self.face):
             self.framing = "front"
         self.face, self.pose, self.shapes_on = snapshot.face, snapshot.pose, snapshot.shapes_on
-        self.controls = snapshot.controls
+        self.controls, self.painted = snapshot.controls, snapshot.painted
         self.playback.stop()
 
     def show(self, face: Face, pose: Pose | None = None) -> None:
@@ -199,7 +217,7 @@ class App:
         self.face = face
         self.pose = pose if pose is not None else first_pose(face.rig, self.settings)
         self.shapes_on = True
-        self.controls = Controls()
+        self.controls, self.painted = Controls(), None
         self.framing = "front"
         self.shapes = ShapesPanel()
         self.playback.stop()
@@ -207,6 +225,11 @@ class App:
     def type_into(self, name: str) -> None:
         """Open the number beside a slider for typing."""
         self.typing, self.typing_fresh = name, True
+
+
+def same_head(one: Face | None, other: Face | None) -> bool:
+    """Whether two faces are one head, perhaps with shapes that were made since."""
+    return one is other or bool(one and other and one.rig.neutral is other.rig.neutral)
 
 
 def first_pose(rig: Rig, settings: Settings) -> Pose:

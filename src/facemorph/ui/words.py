@@ -49,9 +49,13 @@ def state_words(rig: Rig, state: State, most: int = 2) -> str:
 def change_words(before: Snapshot, after: Snapshot) -> str:
     """What happened between two snapshots, as `Undo` names it."""
     if before.face is not after.face:
+        if before.face and after.face and before.face.rig.neutral is after.face.rig.neutral:
+            return f"keep {after.face.rig.shapes[-1].label}"
         return f"open {after.face.title}" if after.face else "close the face"
     if before.shapes_on != after.shapes_on:
         return "shapes on" if after.shapes_on else "shapes off"
+    if before.painted is not after.painted:
+        return "painted regions"
     changed = [m for m in METHODS if getattr(before.controls, m) != getattr(after.controls, m)]
     switched = before.controls.off ^ after.controls.off
     if changed or switched:

@@ -41,6 +41,7 @@ def right_tabs() -> tuple[Tab, ...]:
 
 def parts() -> tuple[Part, ...]:
     """Everything on the window, in drawing order."""
+    from facemorph.ui import on_face
     from facemorph.ui.panels import (
         about,
         bottom_bar,
@@ -56,6 +57,7 @@ def parts() -> tuple[Part, ...]:
     return (
         menu_bar.draw,
         bottom_bar.draw,
+        on_face.clear,
         sides.draw,
         overlay.draw,
         messages.draw,

@@ -1,0 +1,111 @@
+"""Plots: ImPlot in the window's colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from imgui_bundle import ImVec2, ImVec4, imgui, implot
+
+from facemorph.core.arrays import Float64
+from facemorph.ui.state import App
+from facemorph.ui.theme import Rgba
+from facemorph.ui.widgets import colours, unit
+
+# Lines are told apart on both grounds, also by people who see few colours (after Okabe and Ito).
+INKS: dict[str, tuple[Rgba, ...]] = {
+    "dark": ((0.35, 0.71, 0.91, 1), (0.95, 0.65, 0.15, 1), (0.25, 0.78, 0.55, 1), (0.87, 0.55, 0.78, 1)),
+    "light": ((0.0, 0.40, 0.65, 1), (0.75, 0.33, 0.0, 1), (0.0, 0.48, 0.35, 1), (0.62, 0.25, 0.50, 1)),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """One line of a plot: its name in the legend, x (n,) and y (n,). `dots` marks each value."""
+
+    name: str
+    x: Float64
+    y: Float64
+    dots: bool = False
+    wide: bool = False
+
+
+def plot(
+    app: App,
+    name: str,
+    x_title: str,
+    y_title: str,
+    lines: tuple[Line, ...],
+    *,
+    height: float,
+    legend: bool = True,
+    logarithmic: bool = False,
+    at: float | None = None,
+) -> None:
+    """Draw lines over one pair of axes, as wide as there is room. `at` marks an x with an upright line."""
+    if implot.get_current_context() is None:
+        implot.create_context()
+    _dress(app)
+    flags = implot.Flags_.no_menus | implot.Flags_.no_title | implot.Flags_.no_box_select
+    flags |= implot.Flags_.no_mouse_text | (0 if legend else implot.Flags_.no_legend)
+    if implot.begin_plot(f"##{name}", ImVec2(-1, height), flags):
+        fit = implot.AxisFlags_.auto_fit | implot.AxisFlags_.no_highlight | implot.AxisFlags_.no_menus
+        implot.setup_axes(x_title, y_title, fit, fit)
+        if logarithmic:
+            implot.setup_axis_scale(implot.ImAxis_.y1, implot.Scale_.log10)
+        if legend:
+            outside = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
+            implot.setup_legend(implot.Location_.north, outside | implot.LegendFlags_.no_menus)
+        for place, line in enumerate(lines):
+            implot.plot_line(line.name, _array(line.x), _array(line.y), _spec(app, place, line))
+        if at is not None:
+            mark = implot.Spec(line_color=ImVec4(*colours(app).dim), line_weight=unit())
+            implot.plot_inf_lines("##now", np.array([at]), mark)
+        implot.end_plot()
+    _undress()
+
+
+def release_plots() -> None:
+    """Give back what plots hold of the present ImGui context."""
+    context = implot.get_current_context()
+    if context is not None:
+        implot.destroy_context(context)
+
+
+def _array(values: Float64) -> Float64:
+    return np.ascontiguousarray(values, np.float64)
+
+
+def _spec(app: App, place: int, line: Line) -> implot.Spec:
+    inks = INKS[app.settings.theme]
+    ink = ImVec4(*inks[place % len(inks)])
+    spec = implot.Spec(line_color=ink, line_weight=(4.5 if line.wide else 2.0) * unit())
+    if line.dots:
+        spec.marker, spec.marker_size = implot.Marker_.circle, 3.0 * unit()
+        spec.marker_fill_color = spec.marker_line_color = ink
+    return spec
+
+
+_COLOURS = 6
+_SIZES = 3
+
+
+def _dress(app: App) -> None:
+    c, scale = colours(app), unit()
+    clear = ImVec4(0, 0, 0, 0)
+    implot.push_style_color(implot.Col_.frame_bg, clear)
+    implot.push_style_color(implot.Col_.plot_bg, ImVec4(*c.field))
+    implot.push_style_color(implot.Col_.plot_border, ImVec4(*c.line))
+    implot.push_style_color(implot.Col_.legend_bg, clear)
+    implot.push_style_color(implot.Col_.legend_border, clear)
+    implot.push_style_color(implot.Col_.axis_grid, ImVec4(*c.line))
+    implot.push_style_var(implot.StyleVar_.plot_padding, ImVec2(2 * scale, 4 * scale))
+    implot.push_style_var(implot.StyleVar_.label_padding, ImVec2(3 * scale, 3 * scale))
+    implot.push_style_var(implot.StyleVar_.legend_padding, ImVec2(2 * scale, 2 * scale))
+    imgui.push_style_color(imgui.Col_.text, ImVec4(*c.text))
+
+
+def _undress() -> None:
+    imgui.pop_style_color()
+    implot.pop_style_var(_SIZES)
+    implot.pop_style_color(_COLOURS)

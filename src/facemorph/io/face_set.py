@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
@@ -115,32 +114,12 @@ def _parsed(neutral: Path, shapes: Mapping[str, Path], progress: Progress) -> tu
     base = face.file.mesh.positions
     check_size(len(shapes), len(base))
     deltas = np.empty((len(shapes), len(base), 3), np.float32)
-    with ThreadPoolExecutor(_AT_ONCE) as pool:
-        # Whole arrays leave the interpreter free for much of the time, so two threads are quicker.
-        waiting: deque[tuple[int, Path, Future[Float32]]] = deque()
-        try:
-            for k, (name, path) in enumerate(shapes.items()):
-                waiting.append((k, path, pool.submit(face.positions_of, name, path)))
-                if len(waiting) > _AT_ONCE or k + 1 == len(shapes):
-                    _collect(waiting, _AT_ONCE if k + 1 < len(shapes) else 0, base, deltas, progress)
-        except BaseException:
-            pool.shutdown(cancel_futures=True)
-            raise
+    # One after the other: with the many short steps of each, threads wait for the interpreter more
+    # than they gain.
+    for k, (name, path) in enumerate(shapes.items()):
+        progress((k + 1) / (len(shapes) + 1), f"reading {path.name}")
+        np.subtract(face.positions_of(name, path), base, out=deltas[k])
     return face.file, deltas
-
-
-def _collect(
-    waiting: deque[tuple[int, Path, Future[Float32]]],
-    keep: int,
-    base: Float32,
-    deltas: Float32,
-    progress: Progress,
-) -> None:
-    """Take finished shapes in order until so many are left waiting: no more than a few are held at once."""
-    while len(waiting) > keep:
-        k, path, positions = waiting.popleft()
-        progress((k + 1) / (len(deltas) + 1), f"reading {path.name}")
-        np.subtract(positions.result(), base, out=deltas[k])
 
 
 class _Neutral:

@@ -6,6 +6,7 @@ from array import array
 
 import numpy as np
 
+from facemorph.core.arrays import Int64
 from facemorph.core.mesh import Labels
 from facemorph.errors import MeshFileError
 from facemorph.io.limits import NAME_BYTES, NAMES
@@ -37,14 +38,16 @@ class LabelChanges:
 
     def labels(self, polygon_count: int) -> Labels | None:
         """The label of each polygon; names in order of first use, None where no polygon has one."""
-        names = np.frombuffer(self._names, np.int32) if self._names else np.zeros(0, np.int32)
-        starts = np.array([0, *self._polygons, polygon_count], np.int64)
-        index = np.repeat(np.concatenate([np.full(1, -1, np.int32), names]), np.diff(starts))
-        used, first = np.unique(index[index >= 0], return_index=True)
+        changes = np.frombuffer(self._names, np.int32) if self._names else np.zeros(0, np.int32)
+        names = np.concatenate([np.full(1, -1, np.int32), changes])
+        starts: Int64 = np.array([0, *self._polygons, polygon_count], np.int64)
+        lengths = starts[1:] - starts[:-1]
+        used, first = np.unique(names[(names >= 0) & (lengths > 0)], return_index=True)
         if not len(used):
             return None
         used = used[np.argsort(first)]
+        # One place more, so that the last is that of -1, no name.
         renumbered = np.full(len(self._numbers) + 1, -1, np.int32)
         renumbered[used] = np.arange(len(used), dtype=np.int32)
         known = list(self._numbers)
-        return Labels(tuple(known[i] for i in used), renumbered[index])
+        return Labels(tuple(known[i] for i in used), np.repeat(renumbered[names], lengths))

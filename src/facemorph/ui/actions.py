@@ -91,6 +91,16 @@ def toggle_shapes(app: App) -> None:
     app.shapes_on = not app.shapes_on
 
 
+def toggle_method(app: App, method: str) -> None:
+    """Take one method out of the face, or put it back."""
+    app.controls = replace(app.controls, off=app.controls.off ^ {method})
+
+
+def show_page(app: App, title: str) -> None:
+    """Show one page of the panel on the right."""
+    app.settings.right_page, app.settings.right_open, app.panels_hidden = title, True, False
+
+
 def undo(app: App) -> None:
     """One step back."""
     snapshot = app.history.undo(app.snapshot())
@@ -148,7 +158,7 @@ def toggle_left(app: App) -> None:
 
 
 def toggle_right(app: App) -> None:
-    """The shapes panel."""
+    """The panel on the right."""
     app.settings.right_open = app.panels_hidden or not app.settings.right_open
     app.panels_hidden = False
 
@@ -197,7 +207,7 @@ def open_builtin(app: App, name: str) -> None:
 
 def open_source(app: App, source: Sequence[str], *, builtin: bool = False) -> None:
     """Load a face beside the window; the present one stays until that has gone well."""
-    paths = tuple(source)
+    paths = tuple(source) if builtin else tuple(str(Path(path).absolute()) for path in source)
     title = paths[0] if builtin else _short(paths)
 
     def work(progress: Progress) -> Rig:

@@ -44,12 +44,25 @@ def run_hotkeys(app: App) -> None:
 
 
 def _pressed(chord: Chord, *, repeats: bool) -> bool:
-    io = imgui.get_io()
-    if (io.key_ctrl, io.key_shift, io.key_alt) != (chord.ctrl, chord.shift, chord.alt):
+    if _held() != (chord.ctrl, chord.shift, chord.alt):
         return False
     if imgui.is_key_pressed(imgui_key(chord.key), repeats):
         return True
     return chord.key in _KEYPAD and imgui.is_key_pressed(_KEYPAD[chord.key], repeats)
+
+
+def _held() -> tuple[bool, bool, bool]:
+    """Ctrl, Shift and Alt, as they were when the key went down: let go within the same frame, they count."""
+    io, key = imgui.get_io(), imgui.Key
+    held = (
+        (io.key_ctrl, key.left_ctrl, key.right_ctrl),
+        (io.key_shift, key.left_shift, key.right_shift),
+        (io.key_alt, key.left_alt, key.right_alt),
+    )
+    ctrl, shift, alt = (
+        down or imgui.is_key_released(left) or imgui.is_key_released(right) for down, left, right in held
+    )
+    return ctrl, shift, alt
 
 
 def nudging() -> bool:

@@ -127,8 +127,18 @@ def _paths(source: Source, builtins: tuple[str, ...]) -> tuple[tuple[str, ...], 
     if source is None:
         return builtins[:1], True
     if isinstance(source, str | Path):
-        return (str(source),), str(source) in builtins and not isinstance(source, Path)
-    return tuple(str(part) for part in source), False
+        if str(source) in builtins and not isinstance(source, Path):
+            return (str(source),), True
+        return (_whole_path(source),), False
+    return tuple(_whole_path(part) for part in source), False
+
+
+def _whole_path(path: str | Path) -> str:
+    """A path that still means the same face when the next start is in another folder.
+
+    What is not there stays as it was typed: the error then speaks of that.
+    """
+    return str(Path(path).absolute()) if Path(path).exists() else str(path)
 
 
 def _size(size: list[int]) -> tuple[int, int]:

@@ -41,11 +41,14 @@ class Thumbnails:
         self._asked: set[str] = set()
         self._ready: list[tuple[str, Rig]] = []
         self._pixels: list[tuple[str, UInt8]] = []
+        self._more = False  # pictures still to be asked for, and in sight
 
     def step(self, app: App) -> None:
         """One piece of the work, if there is any and its place is in sight."""
         if not app.settings.left_open or app.panels_hidden:
+            self._more = False
             return
+        self._more = any(name not in self._asked for name in app.builtins)
         if self._pixels:
             name, pixels = self._pixels.pop(0)
             self._show(app, name, pixels)
@@ -57,8 +60,8 @@ class Thumbnails:
 
     @property
     def busy(self) -> bool:
-        """Whether the next frame has a piece to do."""
-        return bool(self._pixels or self._ready)
+        """Whether a frame soon has a piece to do."""
+        return bool(self._pixels or self._ready or self._more)
 
     def _ask(self, app: App) -> None:
         if app.jobs.of_kind("thumbnail") or app.jobs.of_kind("face"):

@@ -179,6 +179,8 @@ def test_scenes_that_do_not_fit_are_refused_and_the_face_stays(
         (Scene(POSE, glow=few), MeshDataError, "glow"),
         (Scene(POSE, reference=few), MeshDataError, "reference"),
         (Scene(POSE, offsets=endless), PoseError, "offsets"),
+        (Scene(POSE, reference=endless), PoseError, "reference"),
+        (Scene(POSE, glow=endless[:, 0]), PoseError, "glow"),
         (Scene(POSE, partner=Partner(partner, float("nan"))), PoseError, "s must be"),
         (Scene(POSE, partner=Partner(head_rig(rows=20), 0.5)), CorrespondenceError, "vertices"),
     ]
@@ -500,7 +502,9 @@ def test_a_partners_texture_that_cannot_be_read_is_told(
     materials = {"skin": Material("skin", (0.1, 0.2, 0.3), texture=Path("/nowhere/at-all.png"))}
     other = Rig(replace(head.neutral, materials=materials), head.shapes, head.deltas)
     renderer.draw(Scene(POSE, partner=Partner(other, 0.5)), camera, Look(), SIZE)
-    assert any("at-all.png" in problem for problem in renderer.problems)
+    assert [("at-all.png" in problem) for problem in renderer.problems] == [True]
+    renderer.draw(Scene(POSE, partner=Partner(head_rig(), 0.5)), camera, Look(), SIZE)
+    assert not renderer.problems, "of a partner that is gone nothing is told"
 
 
 def test_partners_come_and_go_and_the_face_is_itself_again(

@@ -132,7 +132,7 @@ class Renderer:
     @property
     def problems(self) -> tuple[str, ...]:
         """What of the loaded face could not be shown (a texture that cannot be read), a line each."""
-        return tuple(self._painter.textures.problems)
+        return self._painter.textures.problems
 
     @property
     def texture(self) -> moderngl.Texture:
@@ -171,7 +171,7 @@ class Renderer:
         """
         rig, _ = self._loaded()
         size = checked_size(size)
-        scene = checked_scene(Scene.of(what), rig, self._known())
+        scene = checked_scene(Scene.of(what), rig)
         # Asked of GL itself: a window's interface binds framebuffers that moderngl has not seen.
         outer = self.ctx.detect_framebuffer()
         hurried = quality == "fast" and self.graphics.software
@@ -219,10 +219,6 @@ class Renderer:
         if self._rig is None or self._surface is None:
             raise GraphicsError("no face is loaded; call load first.")
         return self._rig, self._surface
-
-    def _known(self) -> Float32 | None:
-        """The offsets that were checked already."""
-        return self._shown.offsets if self._shown else None
 
     def _surface_for(self, partner: Partner | None) -> Surface:
         """The surface to draw: with the partner's colours from when it is first asked for."""

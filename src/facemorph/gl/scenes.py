@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import Float32
 from facemorph.core.correspondence import difference
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Scene
@@ -18,10 +17,10 @@ if TYPE_CHECKING:
     import moderngl
 
 
-def checked_scene(scene: Scene, rig: Rig, known: Float32 | None = None) -> Scene:
-    """`scene` if it fits `rig`; offsets that are the array `known` are taken as looked at.
+def checked_scene(scene: Scene, rig: Rig) -> Scene:
+    """`scene` if it fits `rig`.
 
-    Raises `MeshDataError` for arrays of another shape, `PoseError` for offsets or an s that are no numbers.
+    Raises `MeshDataError` for arrays of another shape, `PoseError` for values that are no numbers.
     """
     count = rig.neutral.vertex_count
     for name, array, shape in (
@@ -29,11 +28,12 @@ def checked_scene(scene: Scene, rig: Rig, known: Float32 | None = None) -> Scene
         ("glow", scene.glow, (count,)),
         ("reference", scene.reference, (count, 3)),
     ):
-        if array is not None and array.shape != shape:
+        if array is None:
+            continue
+        if array.shape != shape:
             raise MeshDataError(f"a scene's {name} for this face must be {shape}, not {array.shape}.")
-    offsets = scene.offsets
-    if offsets is not None and offsets is not known and not np.isfinite(offsets).all():
-        raise PoseError("a scene's offsets must be numbers; some are infinite or none.")
+        if not np.isfinite(array).all():
+            raise PoseError(f"a scene's {name} must be finite numbers; some are infinite or not a number.")
     if scene.partner is not None and not math.isfinite(scene.partner.s):
         raise PoseError(f"the partner's s must be a number, not {scene.partner.s}.")
     return scene

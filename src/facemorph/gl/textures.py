@@ -31,7 +31,12 @@ class Textures:
         # Several times the texture reads: too dear where they are made on the CPU.
         self._anisotropy = 1.0 if software else min(ANISOTROPY, float(ctx.max_anisotropy))
         self._read: dict[Path, moderngl.Texture | None] = {}
-        self.problems: list[str] = []
+        self._problems: dict[Path, str] = {}
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """Which textures could not be shown, a line each; their parts keep their plain colour."""
+        return tuple(self._problems.values())
 
     def of(self, material: Material) -> moderngl.Texture | None:
         """The material's texture; None where it has none that can be shown."""
@@ -43,20 +48,20 @@ class Textures:
                 self._read[path] = load_texture(self._ctx, path, self._anisotropy)
             except GraphicsError as error:
                 self._read[path] = None
-                self.problems.append(str(error))
+                self._problems[path] = str(error)
         return self._read[path]
 
     def keep(self, paths: Collection[Path]) -> None:
         """Give back the textures of other paths to the context."""
         for path in [path for path in self._read if path not in paths]:
             texture = self._read.pop(path)
+            self._problems.pop(path, None)
             if texture is not None:
                 texture.release()
 
     def forget(self) -> None:
         """Give the textures back to the context."""
         self.keep(())
-        self.problems.clear()
 
 
 def load_texture(ctx: moderngl.Context, path: Path, anisotropy: float) -> moderngl.Texture:

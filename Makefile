@@ -5,7 +5,7 @@ PY := .venv/bin/python
 
 run: ## set up and open the viewer (pictures under out/ where there is no display)
 	@tools/setup.sh run
-	@$(PY) -m facemorph view --without-display out $(FACE)
+	@$(PY) -m facemorph view --without-display out $(if $(FACE),"$(FACE)")
 
 test: ## set up, then lint, types, layers and all tests
 	@tools/setup.sh test

@@ -90,9 +90,11 @@ def film_strip(
 
 
 def save_picture(path: str | Path, pixels: UInt8) -> Path:
-    """Write pixels (H, W, 4) as a PNG, whole or not at all. Raises `OutputError`."""
+    """Write pixels (H, W, 4) as a PNG, whole or not at all. Raises `OutputError`, `OptionError`."""
     from facemorph.io import write_png
 
+    if Path(path).suffix.lower() != ".png":
+        raise OptionError(f"pictures are written as .png; {Path(path).name!r} does not end so.")
     write_png(Path(path), pixels)
     return Path(path)
 

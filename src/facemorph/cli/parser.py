@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NoReturn
@@ -14,6 +15,7 @@ from facemorph.core.morph import CURVES
 from facemorph.core.picture import SHADINGS
 from facemorph.deform.rbf import KERNELS
 from facemorph.errors import OptionError
+from facemorph.resources import builtin_faces
 
 FACE_HELP = "a built-in face (ada), a folder, or mesh files of which the first is the neutral"
 PAIR_OPTIONS = ("--emotion", "--camera")
@@ -32,8 +34,16 @@ def parsed(arguments: Sequence[str]) -> argparse.Namespace:
     """The options, with `verb` the function to call. Without a verb, the window opens."""
     general = {"-h", "--help", "--version"}
     if not arguments or arguments[0] not in {*VERBS, *general}:
+        _refuse_misspelt(arguments[0] if arguments else "")
         arguments = ["view", *arguments]
     return _parser().parse_args(_with_negative_pairs(arguments))
+
+
+def _refuse_misspelt(word: str) -> None:
+    """A word that is no face but nearly a verb was meant as one. Raises `OptionError`."""
+    close = difflib.get_close_matches(word, VERBS, n=1, cutoff=0.7)
+    if close and word not in builtin_faces() and not Path(word).exists():
+        raise OptionError(f"no verb or face is called {word!r}. Did you mean {close[0]!r}?")
 
 
 def _with_negative_pairs(arguments: Sequence[str]) -> list[str]:
@@ -180,7 +190,10 @@ def _pose_options(parser: Parser) -> None:
     )
     parser.add_argument("--to", dest="target", metavar="B", help="expression to go to")
     parser.add_argument(
-        "--t", type=str, metavar="T", help="how far from A to B, 0 to 1 (default: 1 with --to, else 0)"
+        "--t",
+        type=str,
+        metavar="T",
+        help="how far from A to B, 0 to 1, beyond it extrapolates (default: 1 with --to)",
     )
     parser.add_argument(
         "--curve", default="linear", metavar="NAME", help=f"{' or '.join(CURVES)} (default: linear)"

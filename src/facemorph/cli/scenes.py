@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Sequence
 
 from facemorph.cli.values import number, pose_between, pose_from
+from facemorph.cli.values import weight as weight_of
 from facemorph.core.facs import Sides, known_unit, parsed_units, units_of
 from facemorph.core.pose import NEUTRAL
 from facemorph.core.rig import Rig
@@ -75,7 +76,7 @@ def units_from(words: Sequence[str], rig: Rig) -> dict[int, Sides]:
             continue
         name = name.strip().upper()
         side = name[0] if name[:1] in ("L", "R") else ""
-        unit, weight = known_unit(name[len(side) :], available), number(value, f"--au {name}")
+        unit, weight = known_unit(name[len(side) :], available), weight_of(value, f"--au {name}")
         old = units.get(unit, Sides.both(0.0))
         units[unit] = Sides(old.left if side == "R" else weight, old.right if side == "L" else weight)
     return units

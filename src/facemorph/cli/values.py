@@ -14,11 +14,16 @@ from facemorph.core.pose import NEUTRAL, Pose, state_of
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError, PoseError
 
+LARGEST_WEIGHT = 100
+
 
 def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
     """The pose of --from, --to, --t, --curve and --set. Names and numbers are checked."""
     default_t = float(options.target is not None)
-    return pose_between(options, rig, options.source, options.target or NEUTRAL, default_t)
+    pose = pose_between(options, rig, options.source, options.target or NEUTRAL, default_t)
+    if options.t is not None and not (pose.source or pose.target):
+        raise OptionError("--t says how far to go; name an expression to go to with --to.")
+    return pose
 
 
 def pose_between(
@@ -39,7 +44,7 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
         name, equals, value = word.rpartition("=")
         if not equals or not name:
             raise OptionError(f"--set takes NAME=VALUE, as jawOpen=0.5; not {word!r}.")
-        weights[name] = number(value, f"--set {name}")
+        weights[name] = weight(value, f"--set {name}")
     return weights
 
 
@@ -51,6 +56,14 @@ def number(text: str, option: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise PoseError(f"{option} takes a number, not {text!r}.")
+    return value
+
+
+def weight(text: str, option: str) -> float:
+    """A weight: a number that leaves the face in sight. Raises `PoseError` naming the option."""
+    value = number(text, option)
+    if abs(value) > LARGEST_WEIGHT:
+        raise PoseError(f"{option} takes a weight from -{LARGEST_WEIGHT} to {LARGEST_WEIGHT}, not {text!r}.")
     return value
 
 

@@ -61,13 +61,16 @@ def info(options: argparse.Namespace) -> int:
         print(json.dumps(facts, ensure_ascii=False, indent=2))
         return 0
     for key, value in facts.items():
-        print(f"{key.replace('_', ' '):<12}{_in_words(value)}")
+        if value not in ("", []):
+            print(f"{key.replace('_', ' '):<12}{_in_words(value)}")
     return 0
 
 
 def _in_words(value: object) -> str:
+    if isinstance(value, list) and all(isinstance(item, float) for item in value):
+        return " x ".join(f"{item:.6g}" for item in value)
     if isinstance(value, list):
-        return f"{len(value)}: {', '.join(str(item) for item in value)}" if value else "none"
+        return f"{len(value)}: {', '.join(str(item) for item in value)}"
     if isinstance(value, int):
         return f"{value:,}"
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -46,7 +46,7 @@ class Labels:
         return cls((), np.full(polygon_count, -1, np.int32))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Mesh:
     """A polygon mesh in file order.
 
@@ -73,6 +73,9 @@ class Mesh:
     objects: Labels | None = None
     materials_used: Labels | None = None
     materials: Mapping[str, Material] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<Mesh: {self.vertex_count:,} vertices, {self.polygon_count:,} polygons>"
 
     def __post_init__(self) -> None:
         if self.positions.ndim != 2 or self.positions.shape[1] != 3:

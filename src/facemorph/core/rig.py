@@ -61,7 +61,7 @@ class FaceInfo:
     landmarks: tuple[Landmark, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Rig:
     """A neutral `Mesh` and K shapes; `deltas` (K, V, 3) float32, in the neutral's unit.
 
@@ -83,6 +83,9 @@ class Rig:
             if shape.name in seen or shape.name == NEUTRAL:
                 raise MeshDataError(f"two shapes are called {shape.name!r}; every shape needs its own name.")
             seen.add(shape.name)
+
+    def __repr__(self) -> str:
+        return f"<Rig {self.info.name!r}: {self.neutral.vertex_count:,} vertices, {len(self.shapes)} shapes>"
 
     @classmethod
     def from_arrays(cls, neutral: Mesh, shapes: Mapping[str, Float32], info: FaceInfo | None = None) -> Rig:

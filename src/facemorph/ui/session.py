@@ -121,7 +121,13 @@ class Session:
             actions.tell_error(app, f"{face.title} cannot be drawn", error)
             self._loaded = None
             return
-        app.show(face, pose)
+        before = app.face
+        if pose is None and before is not None and before.rig.names == face.rig.names:
+            # People can then be compared: the next wears the same face, seen from the same side.
+            app.show(face, app.pose)
+            app.framing = f"{app.camera.azimuth_deg},{app.camera.elevation_deg}"
+        else:
+            app.show(face, pose)
         if not face.builtin:
             app.settings.remember(face.source)
         for problem in self.renderer.problems:
@@ -131,7 +137,8 @@ class Session:
         self._drawn = ()
         self.renderer.load(face.rig)
         self._loaded = face
-        if not self._wide_script and any(fonts.needs_wide_script(shape.label) for shape in face.rig.shapes):
+        shown = (face.title, *face.source, *(shape.label for shape in face.rig.shapes))
+        if not self._wide_script and any(fonts.needs_wide_script(text) for text in shown):
             self._wide_script = fonts.add_wide_script()
 
     def _fulfil(self, app: App) -> None:

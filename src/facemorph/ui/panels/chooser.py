@@ -185,15 +185,19 @@ def _list(app: App, found: list[Entry]) -> None:
     imgui.begin_child("entries", ImVec2(0, 300 * unit()), imgui.ChildFlags_.always_use_window_padding)
     imgui.pop_style_color()
     if not found:
-        imgui.text_disabled(
-            "Nothing here begins so." if folder_of(app.chooser.path).is_dir() else "No such folder."
-        )
+        imgui.text_disabled(_nothing_found(app))
     clipper = imgui.ListClipper()
     clipper.begin(len(found))
     while clipper.step():
         for place in range(clipper.display_start, clipper.display_end):
             _entry(app, found[place], place)
     imgui.end_child()
+
+
+def _nothing_found(app: App) -> str:
+    if not folder_of(app.chooser.path).is_dir():
+        return "No such folder."
+    return "A new file of this name." if app.chooser.purpose in _SAVING else "No file here begins like that."
 
 
 def _entry(app: App, entry: Entry, place: int) -> None:

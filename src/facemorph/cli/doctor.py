@@ -13,7 +13,7 @@ from typing import Any
 from facemorph import __version__
 from facemorph.resources import builtin_faces, data_folder
 
-PACKAGES = ("numpy", "moderngl", "glfw", "imgui-bundle", "trimesh", "pillow", "scipy", "platformdirs")
+PACKAGES = ("numpy", "moderngl", "glfw", "imgui-bundle", "trimesh", "pillow", "platformdirs")
 
 
 def examination() -> dict[str, Any]:

@@ -13,7 +13,7 @@ from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.state import App
 from facemorph.ui.widgets import unit
 
-_PACKAGES = ("moderngl", "glfw", "imgui-bundle", "numpy", "trimesh", "scipy", "pillow")
+_PACKAGES = ("moderngl", "glfw", "imgui-bundle", "numpy", "trimesh", "pillow")
 CREDITS = (
     "Method: Tạ Thị Thảo, Representing 3D face states by interpolation, VNU Hanoi, 2016.",
     "Type: Roboto (Apache License 2.0). Symbols: Font Awesome Free (SIL OFL 1.1). "

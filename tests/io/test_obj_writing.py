@@ -148,3 +148,54 @@ def test_an_exported_pose_loads_as_a_shape_of_its_face(tmp_path: Path, small_rig
     rig = load_rig(tmp_path)
     assert rig.names == ("grin",)
     np.testing.assert_allclose(rig.deltas[0], small_rig.deltas[0] * 0.5, atol=1e-6)
+
+
+def everything_in(folder: Path) -> set[str]:
+    return {str(path.relative_to(folder)) for path in folder.rglob("*")}
+
+
+@pytest.mark.parametrize("goal", ["d.obj", "file/d.obj", "d.obj/deep/new.obj/../.."])
+def test_where_a_mesh_cannot_be_written_nothing_at_all_is_left(tmp_path: Path, goal: str) -> None:
+    mesh = textured(tmp_path / "face")
+    out = tmp_path / "out"
+    (out / "d.obj").mkdir(parents=True)
+    (out / "file").write_text("x")
+    before = everything_in(tmp_path)
+    with pytest.raises(OutputError, match=r"d\.obj"):
+        write_obj(out / goal, mesh)
+    assert everything_in(tmp_path) == before
+
+
+def test_a_write_that_breaks_off_leaves_no_companions_and_no_new_folders(tmp_path: Path) -> None:
+    mesh = replace(textured(tmp_path / "face"), groups=Labels((), np.array([5, 5], np.int32)))
+    before = everything_in(tmp_path)
+    with pytest.raises(IndexError):
+        write_obj(tmp_path / "new" / "folder" / "a.obj", mesh)
+    assert everything_in(tmp_path) == before
+
+
+def test_a_rename_that_fails_takes_the_companions_back(tmp_path: Path, monkeypatch) -> None:
+    mesh = textured(tmp_path / "face")
+    before = everything_in(tmp_path)
+    rename = Path.replace
+
+    def failing(self: Path, target: Path) -> Path:
+        if target.suffix == ".obj":
+            raise OSError(28, "No space left on device")
+        return rename(self, target)
+
+    monkeypatch.setattr(Path, "replace", failing)
+    with pytest.raises(OutputError, match=r"out/a\.obj could not be written: no space"):
+        write_obj(tmp_path / "out" / "a.obj", mesh)
+    assert everything_in(tmp_path) == before
+
+
+def test_two_textures_of_one_name_both_come_along(tmp_path: Path) -> None:
+    mesh = textured(tmp_path / "face")
+    other = textured(tmp_path / "face" / "more", b"another").materials["skin"]
+    both = {**mesh.materials, "eye": replace(other, name="eye")}
+    mesh = replace(mesh, materials=both, materials_used=Labels(("skin", "eye"), np.array([0, 1], np.int32)))
+    write_obj(tmp_path / "out" / "a.obj", mesh)
+    again = read_mesh(tmp_path / "out" / "a.obj").materials
+    contents = [again[name].texture.read_bytes() for name in ("skin", "eye")]  # type: ignore[union-attr]
+    assert contents == [b"picture", b"another"]

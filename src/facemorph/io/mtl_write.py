@@ -3,38 +3,81 @@
 from __future__ import annotations
 
 import filecmp
-from collections.abc import Iterable, Iterator
+import shutil
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack, suppress
 from pathlib import Path
 
 from facemorph.core.mesh import Material, Mesh
-from facemorph.errors import MeshFileError, OutputError
-from facemorph.io.atomic import write_bytes
-from facemorph.io.limits import TEXTURE_BYTES, read_bytes
+from facemorph.errors import OutputError
+from facemorph.io.atomic import replacing
+from facemorph.io.limits import TEXTURE_BYTES
 from facemorph.io.names import written_name
 
 _MOST_TRIES = 1_000
 
 
-def write_materials(mesh_path: Path, mesh: Mesh) -> tuple[str | None, tuple[Path, ...]]:
-    """The name of the `.mtl` beside `mesh_path`, None where no material is known; and the new files.
+class Companions:
+    """The `.mtl` and the textures that are to lie beside a mesh; nothing is written before `write`.
 
-    Textures are copied into the mesh's folder. A file that is there with the same content is used as it
-    is; one with another content stays, and the new one gets a number. A texture that is gone is left out.
-    Raises `OutputError`.
+    library   the name of the `.mtl` beside `mesh_path`, None where no material is known
+
+    Textures come into the mesh's folder. A file that is there with the same content is used as it is; one
+    with another content stays, and the new one gets a number. A texture that is gone is left out. Raises
+    `OutputError`.
     """
-    if not mesh.materials:
-        return None, ()
-    folder = mesh_path.parent
-    new: list[Path] = []
-    textures: dict[Path, str] = {}
-    for material in mesh.materials.values():
-        if material.texture is not None and material.texture not in textures:
-            name = _copied(material.texture, folder, new)
-            if name is not None:
-                textures[material.texture] = name
-    text = "".join(_lines(mesh.materials.values(), textures)).encode()
-    path = _placed(folder, f"{mesh_path.stem}.mtl", text, new)
-    return path.name, tuple(new)
+
+    def __init__(self, mesh_path: Path, mesh: Mesh) -> None:
+        self.library: str | None = None
+        self._folder = mesh_path.parent
+        self._new: dict[Path, Path | bytes] = {}
+        if mesh.materials:
+            textures = self._textures(mesh.materials.values())
+            text = "".join(_lines(mesh.materials.values(), textures)).encode()
+            self.library = self._placed(f"{mesh_path.stem}.mtl", text).name
+
+    def write(self, stack: ExitStack) -> tuple[Path, ...]:
+        """Write the files that are new to temporaries, put in place as `stack` closes; returns them."""
+        for path, content in self._new.items():
+            temporary = stack.enter_context(replacing(path))
+            if isinstance(content, Path):
+                shutil.copyfile(content, temporary)
+            else:
+                temporary.write_bytes(content)
+        return tuple(self._new)
+
+    def _textures(self, materials: Iterable[Material]) -> dict[Path, str]:
+        """The name beside the mesh of each texture that can be copied."""
+        found = dict.fromkeys(material.texture for material in materials if material.texture is not None)
+        names: dict[Path, str] = {}
+        for texture in found:
+            with suppress(OSError):
+                if texture.is_file() and texture.stat().st_size <= TEXTURE_BYTES:
+                    with texture.open("rb"):
+                        names[texture] = self._placed(texture.name, texture).name
+        return names
+
+    def _placed(self, name: str, content: Path | bytes) -> Path:
+        """Where `content` is to lie: a file that has it already, or a new one under the first free name."""
+        wanted = Path(name)
+        for number in range(1, _MOST_TRIES):
+            path = self._folder / (name if number == 1 else f"{wanted.stem}_{number}{wanted.suffix}")
+            if _is_same(self._new.get(path, path), content):
+                return path
+            if path not in self._new and not path.exists() and not path.is_symlink():
+                self._new[path] = content
+                return path
+        raise OutputError(
+            f"{self._folder / name} and {_MOST_TRIES} names like it are taken by other files; "
+            "choose another folder."
+        )
+
+
+def remove(paths: Sequence[Path]) -> None:
+    """Take away files that were written a moment ago, as far as can be."""
+    for path in paths:
+        with suppress(OSError):
+            path.unlink()
 
 
 def _lines(materials: Iterable[Material], textures: dict[Path, str]) -> Iterator[str]:
@@ -51,36 +94,18 @@ def _numbers(colour: tuple[float, float, float]) -> str:
     return " ".join(repr(float(part)) for part in colour)
 
 
-def _copied(texture: Path, folder: Path, new: list[Path]) -> str | None:
-    """The name under which `texture` lies in `folder`."""
-    beside = folder / texture.name
-    try:
-        if beside.is_file() and filecmp.cmp(texture, beside, shallow=False):
-            return beside.name
-        data = read_bytes(texture, TEXTURE_BYTES)
-    except (OSError, MeshFileError):
-        return None
-    return _placed(folder, texture.name, data, new).name
+def _is_same(there: Path | bytes, content: Path | bytes) -> bool:
+    """Whether a file, or what is to become one, holds just `content`."""
+    if isinstance(there, bytes) or isinstance(content, bytes):
+        return _bytes_of(there) == _bytes_of(content)
+    with suppress(OSError):
+        return there.is_file() and filecmp.cmp(there, content, shallow=False)
+    return False
 
 
-def _placed(folder: Path, name: str, data: bytes, new: list[Path]) -> Path:
-    """Where `data` lies in `folder`: a file that has it already, or a new one under the first free name."""
-    wanted = Path(name)
-    for number in range(1, _MOST_TRIES):
-        path = folder / (name if number == 1 else f"{wanted.stem}_{number}{wanted.suffix}")
-        if _holds(path, data):
-            return path
-        if not path.exists() and not path.is_symlink():
-            write_bytes(path, data)
-            new.append(path)
-            return path
-    raise OutputError(
-        f"{folder / name} and {_MOST_TRIES} names like it are taken by other files; choose another folder."
-    )
-
-
-def _holds(path: Path, data: bytes) -> bool:
-    try:
-        return path.is_file() and path.stat().st_size == len(data) and path.read_bytes() == data
-    except OSError:
-        return False
+def _bytes_of(content: Path | bytes) -> bytes | None:
+    if isinstance(content, bytes):
+        return content
+    with suppress(OSError):
+        return content.read_bytes() if content.is_file() else None
+    return None

@@ -7,7 +7,8 @@ program; a different file that already has such a name is left alone, and anothe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
 from itertools import pairwise
 from pathlib import Path
 
@@ -16,8 +17,8 @@ import numpy as np
 from facemorph.core.arrays import Float32, Int32
 from facemorph.core.mesh import Labels, Mesh
 from facemorph.errors import MeshDataError
-from facemorph.io.atomic import write_bytes
-from facemorph.io.mtl_write import write_materials
+from facemorph.io.atomic import folders_for, replacing
+from facemorph.io.mtl_write import Companions, remove
 from facemorph.io.names import written_name
 
 _MOST_DECIMALS = 12
@@ -25,7 +26,7 @@ _ROWS = 1 << 16
 
 
 def write_obj(path: Path | str, mesh: Mesh, normals: Float32 | None = None) -> tuple[Path, ...]:
-    """Write `mesh` as an OBJ, atomically; returns the files written, the mesh first.
+    """Write `mesh` as an OBJ; returns the files written, the mesh first. All of them appear, or none.
 
     normals (V, 3), one for each vertex, take the place of the mesh's own (those of a morphed face belong
     to its neutral: pass the morphed ones). Raises `OutputError`, and `MeshDataError` where normals do
@@ -34,15 +35,37 @@ def write_obj(path: Path | str, mesh: Mesh, normals: Float32 | None = None) -> t
     path = Path(path)
     if normals is not None and normals.shape != mesh.positions.shape:
         raise MeshDataError(f"normals must be {mesh.positions.shape}, not {normals.shape}.")
-    library, beside = write_materials(path, mesh)
-    write_bytes(path, *_parts(mesh, normals, library))
-    return (path, *beside)
+    with folders_for(path, path):
+        return (path, *_written(path, mesh, normals))
 
 
-def _parts(mesh: Mesh, normals: Float32 | None, library: str | None) -> Iterator[bytes]:
+def _written(path: Path, mesh: Mesh, normals: Float32 | None) -> tuple[Path, ...]:
+    """Write the mesh and what is to lie beside it, and return the latter."""
+    beside: tuple[Path, ...] = ()
+    try:
+        with ExitStack() as stack:
+            # Entered first, the mesh is refused before anything else is touched, and put in place last.
+            temporary = stack.enter_context(replacing(path))
+            companions = Companions(path, mesh)
+            write_parts(temporary, mesh, normals, [companions.library] if companions.library else [])
+            beside = companions.write(stack)
+    except BaseException:
+        remove(beside)
+        raise
+    return beside
+
+
+def write_parts(path: Path, mesh: Mesh, normals: Float32 | None, libraries: Sequence[str]) -> None:
+    """Write the text of `mesh` into `path` itself; material files of these names are taken to be there."""
+    with path.open("wb") as file:
+        for part in _parts(mesh, normals, libraries):
+            file.write(part)
+
+
+def _parts(mesh: Mesh, normals: Float32 | None, libraries: Sequence[str]) -> Iterator[bytes]:
     """The file's text, piece by piece."""
     yield b"# facemorph\n"
-    if library is not None:
+    for library in libraries:
         yield f"mtllib {library}\n".encode()
     rows = mesh.positions if mesh.colours is None else np.hstack([mesh.positions, mesh.colours])
     yield from _rows(b"v", rows)

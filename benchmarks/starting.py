@@ -11,12 +11,25 @@ from facemorph.resources import builtin_face
 
 POLYSCOPE = """
 import numpy as np, trimesh, polyscope
-mesh = trimesh.load({obj!r}, process=False, maintain_order=True)
+mesh = trimesh.load({obj!r}, process=False, force="mesh")
 polyscope.set_allow_headless_backends(True)
 polyscope.set_verbosity(0)
 polyscope.init()
 polyscope.register_surface_mesh("face", mesh.vertices, mesh.faces)
 polyscope.screenshot({png!r})
+"""
+WINDOW = """
+import facemorph.ui.run as program
+import facemorph.ui.session as session
+
+draw = session.Session.frame
+
+def until_the_face_is_there(self, *arguments):
+    draw(self, *arguments)
+    self.app.quit = self.app.quit or self.app.face is not None
+
+session.Session.frame = until_the_face_is_there
+program.run_window("ada", {}, platform="null")
 """
 PYVISTA = """
 import pyvista
@@ -32,9 +45,10 @@ def run() -> list[Table]:
     with tempfile.TemporaryDirectory() as name:
         png, obj = str(Path(name) / "x.png"), str(builtin_face("ada") / "neutral.obj")
         render = [sys.executable, "-m", "facemorph", "render", "ada", "--to", "happy", "-o", png]
-        fresh = {"FACEMORPH_CACHE_DIR": str(Path(name) / "cache")}
+        fresh = {"FACEMORPH_CACHE_DIR": str(Path(name) / "cache"), "FACEMORPH_CONFIG_DIR": name}
         commands = {
             "facemorph render ada (all 92 shapes, textures)": render,
+            "facemorph's window, to the first frame with the face": python(WINDOW),
             "import numpy, moderngl": python("import numpy, moderngl"),
             "polyscope, neutral alone": python(POLYSCOPE.format(obj=obj, png=png)),
             "pyvista, neutral alone": python(PYVISTA.format(obj=obj, png=png)),

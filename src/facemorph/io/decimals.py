@@ -57,35 +57,30 @@ def floats(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Float64, Int64
     """
     if not len(starts):
         return np.zeros(0), np.zeros(0, np.int64)
-    dot = _points(text, starts, ends)
     first = text.bytes[starts]
     negative = first == ord("-")
-    whole_length = dot - starts
-    whole_length -= negative
-    decimals = ends - dot
-    decimals -= 1
-    values = _uniform_floats(text, ends, dot, whole_length, decimals)
+    values = _uniform_floats(text, starts + negative, ends)
     rest = np.zeros(0, np.int64)
     if values is None:
-        whole_length -= first == ord("+")
-        values, rest = _mixed_floats(text, ends, dot, whole_length, np.maximum(decimals, 0))
+        dot = _points(text, starts, ends)
+        signed = negative | (first == ord("+"))
+        values, rest = _mixed_floats(text, ends, dot, dot - starts - signed, np.maximum(ends - dot - 1, 0))
     np.copysign(values, 0.5 - negative, out=values)
     return values, _read_singly(text, starts, ends, values, rest)
 
 
-def _uniform_floats(
-    text: PaddedText, ends: Int64, dot: Int64, whole_length: Int64, decimals: Int64
-) -> Float64 | None:
-    """The sizes of numbers that all have the same 1 to 8 decimals; None where any is not of that form."""
-    count = int(decimals[0])
-    longest = int(whole_length.max())
-    if not (1 <= count <= 8 and longest <= 8 and count + longest <= 15 and bool((decimals == count).all())):
+def _uniform_floats(text: PaddedText, starts: Int64, ends: Int64) -> Float64 | None:
+    """Numbers without signs that all have the same 1 to 8 decimals; None where any is not of that form."""
+    count = int(ends[0]) - text.data.find(b".", int(starts[0]), int(ends[0])) - 1
+    if not 1 <= count <= _AT_ONCE:
         return None
-    if int(whole_length.min()) < 0:
+    dot = ends - (count + 1)
+    whole_length = dot - starts
+    if not 0 <= int(whole_length.min()) <= int(whole_length.max()) <= min(_AT_ONCE, 15 - count):
         return None
     whole, whole_wrong = _digits(text, dot, whole_length)
     fraction, fraction_wrong = _digits(text, ends, count)
-    if whole_wrong.any() or fraction_wrong.any():
+    if bool((text.bytes[dot] != ord(".")).any()) or whole_wrong.any() or fraction_wrong.any():
         return None
     mantissa: Float64 = whole * _FLOAT_POWERS[count]
     mantissa += fraction
@@ -147,15 +142,11 @@ def integers(text: PaddedText, starts: Int64, ends: Int64) -> tuple[Int64, Int64
 def _points(text: PaddedText, starts: Int64, ends: Int64) -> Int64:
     """Where the first "." of each token is, or the token's end where it has none; (N,)."""
     low = int(starts[0])
-    decimals = int(ends[0]) - text.data.find(b".", low, int(ends[0]))
-    if 1 <= decimals <= 9:
-        # In most files every number has as many decimals as the first.
-        places = ends - decimals
-        if bool(((text.bytes[places] == ord(".")) & (places >= starts)).all()):
-            return places
     places = np.flatnonzero(text.bytes[low : int(ends[-1])] == ord(".")) + low
     if not len(places):
         return ends
+    if len(places) == len(starts) and bool(((places >= starts) & (places < ends)).all()):
+        return places
     nearest = np.searchsorted(places, starts)
     found = places[np.minimum(nearest, len(places) - 1)]
     return np.where((found >= starts) & (found < ends), found, ends)

@@ -15,6 +15,8 @@ TITLES = {
     "folder": "Open face folder",
     "picture": "Save picture",
     "mesh": "Export mesh",
+    "open points": "Open points",
+    "save points": "Save points",
 }
 
 
@@ -35,13 +37,16 @@ class NativeDialog:
         title = TITLES[purpose]
         meshes = ["Meshes", " ".join(f"*{suffix}" for suffix in MESH_SUFFIXES), "All files", "*"]
         self._dialog: Any
-        if purpose == "open":
+        points = ["Points", "*.json"]
+        if purpose == "open points":
+            self._dialog = pfd.open_file(title, str(path.parent), points, pfd.opt.none)
+        elif purpose == "open":
             self._dialog = pfd.open_file(title, str(path.parent), meshes, pfd.opt.multiselect)
         elif purpose == "folder":
             self._dialog = pfd.select_folder(title, str(path.parent))
         else:
-            kinds = ["PNG pictures", "*.png"] if purpose == "picture" else ["OBJ meshes", "*.obj"]
-            self._dialog = pfd.save_file(title, str(path), kinds)
+            kinds = {"picture": ["PNG pictures", "*.png"], "mesh": ["OBJ meshes", "*.obj"]}
+            self._dialog = pfd.save_file(title, str(path), kinds.get(purpose, points))
 
     def answer(self) -> list[str] | None:
         """What was chosen, [] if nothing, None while the dialog is open."""

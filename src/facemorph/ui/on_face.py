@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from facemorph.core.arrays import Float32
+from facemorph.core.picture import Shading
 from facemorph.core.scene import Scene
 
 if TYPE_CHECKING:
@@ -45,16 +46,20 @@ class OnFace:
     """What a page wants of the face while it is on show.
 
     tool     takes the mouse on the face
-    scene    is drawn in place of what the methods make; `words` then says what it is
+    scene    is drawn in place of what the methods make; `words` then says what it is, `legend` what a
+             heat map of it measures
     glow     (V,) float32 0..1, where the face lights up
     split    a second view beside the first
+    shading  is used in place of the chosen one
     """
 
     tool: Tool | None = None
     scene: Scene | None = None
     words: tuple[str, ...] = ()
+    legend: str = ""
     glow: Float32 | None = None
     split: Split | None = None
+    shading: Shading | None = None
 
 
 def clear(app: App, layout: object) -> None:

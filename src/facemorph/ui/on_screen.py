@@ -63,7 +63,8 @@ def picked(app: App, surface: Surface, x: float, y: float) -> Pick | None:
     view = app.view_at(x, y)
     if not view.contains(x, y):
         return None
-    positions = app.scene().positions(surface.rig)
+    assert app.face is not None
+    positions = app.scene().positions(app.face.rig)
     return pick(positions, surface.triangles, app.camera, view.size, *view.pixel(x, y))
 
 

@@ -99,7 +99,7 @@ def _dress(app: App) -> None:
     implot.push_style_color(implot.Col_.legend_bg, clear)
     implot.push_style_color(implot.Col_.legend_border, clear)
     implot.push_style_color(implot.Col_.axis_grid, ImVec4(*c.line))
-    implot.push_style_var(implot.StyleVar_.plot_padding, ImVec2(2 * scale, 4 * scale))
+    implot.push_style_var(implot.StyleVar_.plot_padding, ImVec2(12 * scale, 4 * scale))
     implot.push_style_var(implot.StyleVar_.label_padding, ImVec2(3 * scale, 3 * scale))
     implot.push_style_var(implot.StyleVar_.legend_padding, ImVec2(2 * scale, 2 * scale))
     imgui.push_style_color(imgui.Col_.text, ImVec4(*c.text))

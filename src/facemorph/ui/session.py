@@ -173,12 +173,12 @@ class Session:
             id(scene.reference),
             partner_key(scene),
             app.camera,
-            app.look,
+            app.shown_look,
             view.size,
         )
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
             self._scene = scene
-            self.renderer.draw(scene, app.camera, app.look, view.size, quality=quality)
+            self.renderer.draw(scene, app.camera, app.shown_look, view.size, quality=quality)
             self._drawn = (*wanted, quality)
         self._hurried = False
         self._legend(app)

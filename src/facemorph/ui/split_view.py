@@ -82,7 +82,7 @@ class SplitView:
         """Draw the second view; True where its legend is new and the interface must be built once more."""
         view = app.views()[1]
         renderer = self._ready(app)
-        look = replace(app.look, shading="heat") if split.heat else app.look
+        look = replace(app.look, shading="heat") if split.heat else app.shown_look
         scene = split.right
         wanted = (
             app.face, scene.pose, id(scene.offsets), id(scene.reference), partner_key(scene), app.camera,

@@ -6,6 +6,7 @@ It knows no window and no graphics: what it wants of them it writes down as a wi
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,7 @@ from facemorph.gl.describe import Graphics
 from facemorph.gl.heat import Legend
 from facemorph.ui.history import History, Snapshot
 from facemorph.ui.jobs import Jobs
+from facemorph.ui.lab import Lab
 from facemorph.ui.messages import Messages
 from facemorph.ui.methods import Methods
 from facemorph.ui.on_face import OnFace
@@ -29,6 +31,7 @@ from facemorph.ui.settings import Settings
 
 if TYPE_CHECKING:
     from facemorph.ui.dialogs import NativeDialog
+    from facemorph.ui.on_screen import Surface
     from facemorph.ui.paths import Entry
 
 
@@ -133,6 +136,7 @@ class App:
     methods: Methods = field(default_factory=Methods)
     painted: RegionSet | None = None  # regions painted on the face, in place of the rig's own
     on_face: OnFace = field(default_factory=OnFace)
+    lab: Lab = field(default_factory=Lab)
     camera: Camera = field(default_factory=Camera)
     look: Look = field(default_factory=Look)
     turntable: bool = False
@@ -176,6 +180,15 @@ class App:
         """The pose that is drawn, saved and exported: without the shapes where they are switched off."""
         return self.pose if self.shapes_on else replace(self.pose, weights={})
 
+    def surface(self, make: Callable[[Rig], Surface]) -> Surface | None:
+        """The present face's surface; made once a head."""
+        if self.face is None:
+            return None
+        kept = self.lab.surface
+        if kept is None or kept.rig.neutral is not self.face.rig.neutral:
+            kept = self.lab.surface = make(self.face.rig)
+        return kept
+
     def views(self) -> tuple[Viewport, ...]:
         """The viewport, or its two halves where the face is seen twice."""
         view = self.viewport
@@ -187,6 +200,12 @@ class App:
     def view_at(self, x: float, y: float) -> Viewport:
         """The view that holds a place of the window, or the first."""
         return next((view for view in self.views() if view.contains(x, y)), self.views()[0])
+
+    @property
+    def shown_look(self) -> Look:
+        """How the face is drawn: as chosen, or with the shading that the page on show wants."""
+        shading = self.on_face.shading
+        return self.look if shading is None else replace(self.look, shading=shading)
 
     def scene(self) -> Scene:
         """What is drawn, saved and exported: the shown pose with what all methods add."""
@@ -218,6 +237,7 @@ class App:
         self.pose = pose if pose is not None else first_pose(face.rig, self.settings)
         self.shapes_on = True
         self.controls, self.painted = Controls(), None
+        self.lab = Lab()
         self.framing = "front"
         self.shapes = ShapesPanel()
         self.playback.stop()

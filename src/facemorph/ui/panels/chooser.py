@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import actions, dialogs, fonts
+from facemorph.ui import actions, dialogs, fonts, handles
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of
@@ -21,13 +21,17 @@ _SUFFIXES = {
     "folder": actions.MESH_SUFFIXES,
     "picture": (".png",),
     "mesh": (".obj",),
+    "open points": (".json",),
+    "save points": (".json",),
 }
-_SAVING = ("picture", "mesh")
+_SAVING = ("picture", "mesh", "save points")
 _HELP = {
     "open": "A mesh file, or the folder of a face. Tab completes what you type.",
     "folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
     "picture": "Where to save the picture (PNG). Tab completes what you type.",
     "mesh": "Where to save the morphed face (OBJ). Tab completes what you type.",
+    "open points": "A file of points (JSON). Tab completes what you type.",
+    "save points": "Where to save the points (JSON). Tab completes what you type.",
 }
 
 
@@ -136,6 +140,10 @@ def _take(app: App, purpose: str, paths: list[Path]) -> None:
         actions.save_picture(app, first)
     elif purpose == "mesh":
         actions.export_mesh(app, first)
+    elif purpose == "open points":
+        handles.load(app, first)
+    elif purpose == "save points":
+        handles.save(app, first)
     elif len(paths) == 1 and first.name == "face.toml":
         actions.open_source(app, (str(first.parent),))
     else:

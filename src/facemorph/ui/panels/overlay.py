@@ -7,7 +7,7 @@ from imgui_bundle import ImVec2, imgui
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.picture import SHADINGS
 from facemorph.core.rig import Rig
-from facemorph.gl.heat import Legend
+from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend
 from facemorph.ui import actions
 from facemorph.ui.commands import DIRECTION_WORDS, SHADING_WORDS
 from facemorph.ui.layout import Layout
@@ -30,6 +30,7 @@ _TITLE_PIXELS = 22.0
 _MOST_LINES = 6
 _SHORT_DIRECTION = {"three-quarter": "¾", "left": "Left", "right": "Right"}
 NO_FACE = "No face is open. Drop a folder of meshes here, or press Ctrl+O."
+LEGEND_WORDS = {DISPLACEMENT: "Moved from neutral", DIFFERENCE: "Difference"}
 HINT = "Pick an expression, then drag the slider"
 
 
@@ -41,7 +42,9 @@ def draw(app: App, layout: Layout) -> None:
         _centred(app, "Opening a face…" if app.jobs.of_kind("face") else NO_FACE)
     else:
         _caption(app)
-        if app.look.shading == "heat" and app.legend is not None:
+        if app.on_face.tool is not None:
+            app.on_face.tool.paint(app)
+        if app.legend is not None:
             _legend(app, app.legend)
         if not app.settings.hint_seen and app.expressions:
             _hint(app)
@@ -80,6 +83,8 @@ def line_width(text: str) -> float:
 
 
 def _active_lines(app: App, rig: Rig) -> list[str]:
+    if app.on_face.words:
+        return list(app.on_face.words)
     state = sorted(app.shown_state().items(), key=lambda part: -abs(part[1]))
     lines = [f"{label_of(rig, name)} {percent(weight)}" for name, weight in state if round(weight * 100)]
     if len(lines) > _MOST_LINES:
@@ -119,7 +124,7 @@ def _buttons(app: App) -> None:
     for place, name in enumerate(SHADINGS):
         if place:
             imgui.same_line()
-        if chip(app, SHADING_WORDS[name], _SHADING_TIPS[name], lit=app.look.shading == name):
+        if chip(app, SHADING_WORDS[name], _SHADING_TIPS[name], lit=app.shown_look.shading == name):
             actions.set_shading(app, name)
     imgui.pop_style_var()
     imgui.end()
@@ -162,7 +167,11 @@ def _legend(app: App, legend: Legend) -> None:
     top = y - box
     paint.add_rect_filled((x, top), (x + width + 3 * pad, y), packed(faded(c.panel, 0.86)), 6 * scale)
     left, bar = x + 1.5 * pad, top + pad + line + 4 * scale
-    paint.add_text((left, top + pad), packed(c.text), f"Moved from neutral, {legend.unit}")
+    paint.add_text(
+        (left, top + pad),
+        packed(c.text),
+        f"{app.on_face.legend or LEGEND_WORDS[legend.title]}, {legend.unit}",
+    )
     _ramp(legend, left, bar, width, height)
     for at, text in legend.ticks:
         size = imgui.calc_text_size(text)

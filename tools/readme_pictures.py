@@ -23,6 +23,9 @@ from tests.ui.harness import Offscreen as Window  # noqa: E402
 
 import facemorph  # noqa: E402
 from facemorph.core.morph import eased  # noqa: E402
+from facemorph.core.scene import Partner, Scene  # noqa: E402
+from facemorph.deform.controls import BoundControls, Controls, PeopleControl  # noqa: E402
+from facemorph.deform.people import PeopleMix  # noqa: E402
 from facemorph.gl import sheet  # noqa: E402
 
 DOCS = ROOT / "docs"
@@ -43,6 +46,7 @@ def main() -> None:
         animation(screen, rig, DOCS / "morph.webp")
         six = sheet(screen, facemorph.load("zola"), tile=(300, 320))
         save(DOCS / "sheet.png", six)
+        people(screen, DOCS / "people.png")
         look = facemorph.Look(shading="heat")
         heat = screen.render(rig, {"happy": 1.0}, size=(900, 560), camera="three-quarter", look=look)
         save(DOCS / "heat.png", heat)
@@ -69,6 +73,19 @@ def animation(screen: facemorph.Offscreen, rig: facemorph.Rig, path: Path) -> No
             pictures.append(Image.fromarray(np.ascontiguousarray(pixels[..., :3])))
     pictures[0].save(path, save_all=True, append_images=pictures[1:], duration=FRAME_MS, loop=0, quality=82)
     print(path.relative_to(ROOT))
+
+
+def people(screen: facemorph.Offscreen, path: Path) -> None:
+    """From Ada to Kofi while both begin to smile: the bilinear interpolation (2.10) with its skins."""
+    rig, other = facemorph.load("ada"), facemorph.load("kofi")
+    bound = BoundControls(rig, "ada", {"kofi": other})
+    tiles = []
+    for s in np.linspace(0.0, 1.0, 5):
+        pose = facemorph.Pose.between("neutral", "happy", float(s))
+        controls = Controls(people=PeopleControl(PeopleMix({"ada": 1.0}, "kofi", float(s))))
+        scene = Scene.moved(pose, bound(pose, controls), Partner(other, float(s)))
+        tiles.append(screen.render(rig, scene, size=(300, 340), camera="-15,2"))
+    save(path, np.concatenate(tiles, axis=1))
 
 
 def save(path: Path, pixels: np.ndarray) -> None:

@@ -76,12 +76,13 @@ class RegionsPage:
     opened: str = ""
     painting: bool = False
     region: str = ""
-    radius: float = 1.5  # in parts of a twentieth of the face's diagonal
+    radius: float = 0.0  # model units; 0 until the face is known
     strength: float = 0.5
     takes: bool = False
     mirror: bool = True
     stroke: Float32 | None = None  # region weights (R, V) while the brush is down
-    lit: tuple[str, Float32 | None] = ("", None)  # kept so that the same light is the same array
+    last_dab: tuple[float, float] | None = None  # where the brush was set down last
+    lit: tuple[object, Float32 | None] = (None, None)  # kept so that the same light is the same array
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,6 +32,23 @@ class Tool(Protocol):
         """Draw over the face; the present ImGui window covers the viewport."""
 
 
+class OnlyPaints:
+    """A tool that draws over the face and leaves the mouse to the camera."""
+
+    def press(self, app: App, x: float, y: float, button: int) -> bool:
+        """Nothing is taken."""
+        return False
+
+    def drag(self, app: App, x: float, y: float) -> None:
+        """Nothing was taken."""
+
+    def release(self, app: App) -> None:
+        """Nothing was taken."""
+
+    def click(self, app: App, x: float, y: float) -> None:
+        """A click does nothing."""
+
+
 @dataclass(frozen=True, eq=False)
 class Split:
     """A second view of the face, right of the first: what it shows, and what is written over each."""

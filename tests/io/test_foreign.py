@@ -153,3 +153,23 @@ def test_mutated_files_raise_nothing_else(tmp_path: Path, suffix: str) -> None:
         except MeshFileError:
             refused += 1
     assert refused
+
+
+def test_what_moves_a_gltf_and_is_not_read_is_told(tmp_path: Path, grid: Mesh) -> None:
+    path = exported(tmp_path, grid, "gltf")
+    assert read_mesh(path).notes == ()
+    scene = json.loads(path.read_text())
+    part = scene["meshes"][0]["primitives"][0]
+    part["targets"] = [{"POSITION": part["attributes"]["POSITION"]}] * 3
+    scene["skins"] = [{"joints": [0]}]
+    path.write_text(json.dumps(scene))
+    notes = read_mesh(path).notes
+    assert len(notes) == 2
+    assert notes[0].startswith(f"{path}: 3 morph targets are not read; export")
+    assert "skin" in notes[1]
+
+
+def test_real_morph_targets_are_told(shared_data: Path) -> None:
+    notes = {p.stem: read_mesh(p).notes for p in (shared_data / "gltf").glob("*/*.gltf")}
+    assert all("morph target" in note[0] for note in notes.values())
+    assert "2 morph targets" in notes["SimpleMorph"][0]

@@ -78,6 +78,7 @@ def test_a_missing_material_file_does_not_stop_a_mesh_and_is_told(tmp_path: Path
     assert mesh.materials == {}
     assert mesh.materials_used is not None
     assert mesh.materials_used.names == ("skin",)
+    assert mesh.notes == (f"{path}: the material file 'face.mtl' is not in the mesh's folder.",)
     assert "face.mtl" in read_libraries(path, ["face.mtl"]).problems[0]
 
 
@@ -96,3 +97,13 @@ def test_rubbish_is_no_material(tmp_path: Path) -> None:
     )
     skin = read_mesh(written(tmp_path, MESH)).materials["skin"]
     assert (skin.shininess, skin.opacity) == (10.0, 1.0)
+
+
+@pytest.mark.parametrize("name", ["gone.png", "../outside.png"])
+def test_a_texture_that_is_not_there_is_told_and_its_material_knows(tmp_path: Path, name: str) -> None:
+    written(tmp_path, f"newmtl skin\nKd 1 1 1\nmap_Kd {name}\n", "face.mtl")
+    mesh = read_mesh(written(tmp_path, MESH))
+    assert mesh.materials["skin"].texture is None
+    assert mesh.materials["skin"].texture_lost
+    assert len(mesh.notes) == 1
+    assert name in mesh.notes[0]

@@ -22,7 +22,8 @@ from facemorph.errors import MeshDataError
 class Material:
     """How a part of the surface looks; colours are linear factors 0..1, the texture is sRGB.
 
-    `texture` is a file inside the face's folder, or None.
+    `texture` is a file inside the face's folder, or None; `texture_lost` where one was named that is not
+    there, so that `diffuse`, a factor on it, says little.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Material:
     shininess: float = 10.0
     opacity: float = 1.0
     texture: Path | None = None
+    texture_lost: bool = False
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,7 @@ class Mesh:
     colours          (V, 3) float32 0..1, or None
     groups, objects, materials_used   a name for each polygon
     materials        what is known of each name in materials_used
+    notes            what of the file could not be taken (a missing material file, morph targets), a line each
     """
 
     positions: Float32
@@ -73,6 +76,7 @@ class Mesh:
     objects: Labels | None = None
     materials_used: Labels | None = None
     materials: Mapping[str, Material] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Mesh: {self.vertex_count:,} vertices, {self.polygon_count:,} polygons>"

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from facemorph.core.mesh import Material, Mesh
-from facemorph.gl.materials import Colour
+from facemorph.gl.materials import Colour, colour_without_texture
 from facemorph.gl.textures import Textures
 
 if TYPE_CHECKING:
@@ -58,13 +58,14 @@ class Source:
 
 
 def source_of(material: Material, mesh: Mesh, textures: Textures) -> Source:
-    """The material's texture, the mesh's vertex colours, or the material's diffuse colour."""
+    """The material's texture, the mesh's vertex colours, or the material's plain colour."""
     texture = textures.of(material)
     if texture is not None:
         return Source(material.diffuse, material.opacity, texture)
     if mesh.colours is not None:
         return Source(_WHITE, material.opacity, coloured=True)
-    return Source(material.diffuse, material.opacity)
+    lost = material.texture is not None or material.texture_lost
+    return Source(colour_without_texture(material) if lost else material.diffuse, material.opacity)
 
 
 def encoded(linear: float) -> float:

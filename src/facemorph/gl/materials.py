@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from facemorph.core.mesh import Material
 
@@ -63,6 +65,29 @@ CLAY_COLOUR: Colour = (0.43, 0.41, 0.385)
 GLOW_COLOUR: Colour = (0.10, 0.56, 0.80)
 # A mesh without any material: unpainted, but warm.
 PLAIN = Material("", diffuse=(0.50, 0.375, 0.305))
+
+
+_STAND_INS: Mapping[Finish, Colour] = MappingProxyType(
+    {
+        SKIN: PLAIN.diffuse,
+        EYE: (0.62, 0.60, 0.58),
+        TEETH: (0.62, 0.56, 0.46),
+        TONGUE: (0.32, 0.06, 0.055),
+        LASH: (0.010, 0.008, 0.007),
+    }
+)
+# From this factor on, a colour is no paint but lets its texture through unchanged.
+_UNCHANGED = 0.75
+
+
+def colour_without_texture(material: Material) -> Colour:
+    """The linear colour of a material whose texture cannot be shown.
+
+    Its own, where that is one; a factor near white would glare, so what the part is of takes its place.
+    """
+    if min(material.diffuse) < _UNCHANGED:
+        return material.diffuse
+    return _STAND_INS.get(finish_of(material), CLAY_COLOUR)
 
 
 def finish_of(material: Material) -> Finish:

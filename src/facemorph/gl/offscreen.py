@@ -67,6 +67,11 @@ class Offscreen:
             pixels = with_legend(pixels, self.renderer.legend)
         return pixels
 
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """What of the face drawn last could not be read or shown, a line each."""
+        return self.renderer.problems
+
     def _current(self) -> AbstractContextManager[object]:
         """Makes a context of our own current for as long as it is needed; a lent one is already."""
         return self.ctx if self._own else nullcontext()

@@ -131,8 +131,9 @@ class Renderer:
 
     @property
     def problems(self) -> tuple[str, ...]:
-        """What of the loaded face could not be shown (a texture that cannot be read), a line each."""
-        return self._painter.textures.problems
+        """What of the loaded face could not be read or shown, a line each; textures once they were drawn."""
+        notes = self._rig.neutral.notes if self._rig is not None else ()
+        return (*notes, *self._painter.textures.problems)
 
     @property
     def texture(self) -> moderngl.Texture:

@@ -90,7 +90,9 @@ def _read(path: Path) -> Picture:
             see_through = "A" in opened.getbands() or "transparency" in opened.info
             picture: Picture = opened.convert("RGBA" if see_through else "RGB")
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
-        raise GraphicsError(f"{path}: the texture cannot be read ({error}).") from error
+        raise GraphicsError(
+            f"{path}: the texture cannot be read ({error}); a plain colour stands in."
+        ) from error
     if max(picture.size) > LARGEST_SIDE:
         picture.thumbnail((LARGEST_SIDE, LARGEST_SIDE), reducing_gap=2.0)
     return picture.transpose(Image.Transpose.FLIP_TOP_BOTTOM)

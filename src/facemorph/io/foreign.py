@@ -2,8 +2,9 @@
 
 What these give: positions and triangles (polygons are cut into triangles), a PLY's colours and its uvs
 where they belong to vertices, and the parts of a glTF scene put in their places, one after the other; its
-materials, morph targets and animation are left out. An STL has three vertices of its own for each
-triangle, so two of them correspond only when written from the same mesh by the same program.
+materials, morph targets, skins and animation are left out, and `Mesh.notes` tells of targets and skins.
+An STL has three vertices of its own for each triangle, so two of them correspond only when written from
+the same mesh by the same program.
 
 The files that a .gltf names must lie in its folder or below it, links followed first.
 """
@@ -12,6 +13,8 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -33,8 +36,11 @@ def read_foreign(path: Path) -> Mesh:
     """The mesh of a file that trimesh reads. Raises `MeshFileError`."""
     data = read_bytes(path)
     suffix = path.suffix.lower()
+    notes: tuple[str, ...] = ()
     if suffix in (".gltf", ".glb"):
-        _check_scene(path, _scene_json(path, data))
+        scene = _scene_json(path, data)
+        _check_scene(path, scene)
+        notes = tuple(f"{path}: {note}" for note in _left_out(scene))
     loaded = _loaded(path, suffix, data)
     vertices, triangles = getattr(loaded, "vertices", None), getattr(loaded, "faces", None)
     if vertices is None or triangles is None or not len(vertices) or not len(triangles):
@@ -48,7 +54,7 @@ def read_foreign(path: Path) -> Mesh:
     if int(corners.min()) < 0 or int(corners.max()) >= len(positions):
         raise MeshFileError(path, f"a face names vertex {int(corners.max()) + 1:,} of {len(positions):,}")
     try:
-        return _mesh(positions, corners, loaded)
+        return replace(_mesh(positions, corners, loaded), notes=notes)
     except MeshDataError as error:
         raise MeshFileError(path, str(error)) from error
 
@@ -152,6 +158,20 @@ def _check_scene(path: Path, scene: Any) -> None:
         raise MeshFileError(path, f"is not glTF: {shortened(str(error), 80)}") from error
     if total > _VERTICES:
         raise MeshFileError(path, f"holds {total:,} vertices; at most {_VERTICES:,} are read")
+
+
+def _left_out(scene: Any) -> Iterator[str]:
+    """A sentence for what of a checked scene moves its meshes, and is not read."""
+    parts = [part for mesh in scene.get("meshes", []) for part in mesh["primitives"]]
+    targets = [part["targets"] for part in parts if isinstance(part.get("targets"), list)]
+    count = max(map(len, targets), default=0)
+    if count:
+        yield (
+            f"{count:,} morph target{'s are' if count > 1 else ' is'} not read; export the shapes as meshes "
+            "of their own, of the same vertices."
+        )
+    if scene.get("skins"):
+        yield "its skin (bones) is not applied; export the mesh as it is to stand."
 
 
 def _has_ring(nodes: list[dict[str, Any]]) -> bool:

@@ -98,7 +98,7 @@ def _with(material: Material, key: str, rest: str, folder: Path, problems: list[
             problems.append(
                 f"the texture {shortened(name)!r} of {shortened(material.name)!r} is not in the mesh's folder"
             )
-        return replace(material, texture=texture)
+        return replace(material, texture=texture, texture_lost=texture is None)
     return material
 
 

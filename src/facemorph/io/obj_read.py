@@ -66,8 +66,9 @@ def with_materials(path: Path, file: ObjFile) -> Mesh:
     used = file.mesh.materials_used.names if file.mesh.materials_used else ()
     if not used or not file.libraries:
         return file.mesh
-    known = read_libraries(path, file.libraries).materials
-    return replace(file.mesh, materials={name: known[name] for name in used if name in known})
+    library = read_libraries(path, file.libraries)
+    known = {name: library.materials[name] for name in used if name in library.materials}
+    return replace(file.mesh, materials=known, notes=tuple(f"{path}: {p}." for p in library.problems))
 
 
 def parse_positions(path: Path, data: bytes) -> Float32 | None:

@@ -167,6 +167,8 @@ def bad(tmp_path: Path, files: dict[str, str]) -> Path:
         ({"neutral.obj": SQUARE, "neutral.ply": "x"}, "one neutral is needed"),
         ({"my_neutral.obj": SQUARE, "neutral_2.obj": SQUARE}, "one neutral is needed"),
         ({"neutral.obj": SQUARE, "a.obj": SQUARE, "A.stl": "x"}, "Rename one"),
+        ({"happy.obj": SQUARE}, "called as an expression"),
+        ({"ada_Sad.obj": SQUARE}, "called as an expression"),
     ],
 )
 def test_folders_that_are_no_face_are_refused_with_the_reason(tmp_path: Path, files, words: str) -> None:
@@ -294,9 +296,11 @@ def test_a_face_folder_is_loaded_as_it_describes_itself(tmp_path: Path) -> None:
     [
         (("moved.obj", "gone.obj"), "no file in the folder"),
         (("moved.obj", "../neutral.obj"), "no file in the folder"),
-        (("vertex = 3", "vertex = 4"), "vertex 4 of 4"),
+        (("vertex = 3", "vertex = 4"), "is vertex 4, .* from 0 here, the last being 3"),
         (("vertex = 3", "vertex = -1"), "vertex -1"),
         (("vertex = 3", "vertex = true"), "whole number"),
+        (("vertex = 3", "vertex = 'a'"), "whole number"),
+        (('"cm"', '"furlong"'), "mm, cm, m, in, not 'furlong'"),
         (('name = "Test"', "name = 5"), "must be a text"),
         (('name = "up"', ""), "name is missing"),
         (
@@ -399,3 +403,48 @@ def test_a_set_of_another_format_loads(tmp_path: Path) -> None:
     write_obj(tmp_path / "x.obj", grid)
     with pytest.raises(CorrespondenceError):
         load_rig([tmp_path / "x.obj", tmp_path / "ply" / "up.ply"])
+
+
+@pytest.mark.parametrize(
+    "entries", ["", "expressions = []\n", "[[expresions]]\nname = 'up'\nfile = 'up.obj'\n"]
+)
+def test_a_description_without_expressions_takes_the_folders_meshes(tmp_path: Path, entries: str) -> None:
+    bad(tmp_path, {"neutral.obj": SQUARE, "AU12.obj": moved(), "AU2.obj": moved(), "happy.obj": moved()})
+    written(tmp_path, f"name = 'Test'\nunit = 'MM'\n{entries}", "face.toml")
+    rig = load_rig(tmp_path)
+    assert rig.names == ("happy", "AU2", "AU12")
+    assert (rig.info.name, rig.info.unit, rig.shapes[0].label) == ("Test", "mm", "Happy")
+
+
+def test_a_description_may_name_the_neutral_and_nothing_else(tmp_path: Path) -> None:
+    bad(tmp_path, {"base.obj": SQUARE, "up.obj": moved()})
+    written(tmp_path, "neutral = './base.obj'\n", "face.toml")
+    assert load_rig(tmp_path).names == ("up",)
+    written(tmp_path, "name = 'x'\n", "face.toml")
+    with pytest.raises(FaceFolderError, match="none is called neutral"):
+        load_rig(tmp_path)
+    (tmp_path / "base.obj").rename(tmp_path / "my_neutral.obj")
+    assert load_rig(tmp_path).names == ("up",)
+
+
+def test_expressions_that_are_there_are_all_there_is(tmp_path: Path) -> None:
+    described(tmp_path)
+    written(tmp_path, moved(), "other.obj")
+    assert load_rig(tmp_path).names == ("up",)
+
+
+def test_a_lone_mesh_of_no_telling_name_is_a_face(tmp_path: Path) -> None:
+    assert load_rig(bad(tmp_path, {"unhappy_head.obj": SQUARE})).names == ()
+    assert load_rig(written(tmp_path, SQUARE, "happy.obj")).info.name == "happy"
+
+
+def test_several_words_are_files_and_a_built_in_face_among_them_is_told(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    name = next(iter(builtin_faces()), None)
+    if name is None:
+        pytest.skip("the built-in faces are not there")
+    for source in ([name, name], [str(written(tmp_path, SQUARE)), name]):
+        with pytest.raises(
+            FaceFolderError, match=f"{name} is a built-in face, and several words mean mesh files"
+        ):
+            load_rig(source)

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import shlex
+from collections.abc import Iterable
 from pathlib import Path
+
+import numpy as np
 
 from facemorph.core.arrays import Float32
 from facemorph.core.correspondence import difference
@@ -14,33 +17,37 @@ from facemorph.errors import FaceFolderError, FacemorphError, MeshFileError
 from facemorph.io.check_mesh import mesh_findings
 from facemorph.io.check_shape import Movements
 from facemorph.io.face_set import HINTS, check_size
-from facemorph.io.limits import read_bytes
-from facemorph.io.load import face_files, plain_meshes
-from facemorph.io.mtl import read_libraries
+from facemorph.io.face_toml import FACE_TOML, DescribedFace, described_rig, read_face_info, unknown_keys
+from facemorph.io.limits import read_bytes, shortened
+from facemorph.io.load import FaceFiles, face_files, place_of
+from facemorph.io.mtl import Library, read_libraries
 from facemorph.io.obj_read import parse_obj
+from facemorph.io.pictures import picture_problem
+from facemorph.io.plain_folder import is_called_neutral, plain_meshes
 from facemorph.io.read import read_mesh
 from facemorph.io.report import Finding, Level, Report
-from facemorph.io.shapes_npz import read_shapes
+from facemorph.io.shapes_npz import MoreShapes, read_shapes
 
 
 def check_folder(path: Path | str, *, progress: Progress = silent) -> Report:
-    """Examine a face folder, plain or with a `face.toml`. A bad file is a finding, and the others go on.
+    """Examine a face folder, plain or with a `face.toml`, or a built-in face by its name.
 
-    Raises `FaceFolderError` only for what is no folder with any mesh in it.
+    A bad file is a finding, and the others go on. What loading would refuse is an error here. Raises
+    `FaceFolderError` or `UnknownNameError` only for what is no folder with any mesh in it.
     """
-    folder = Path(path)
+    folder = place_of(path)
     if not folder.is_dir():
-        what = "is a file" if folder.exists() else "does not exist"
-        raise FaceFolderError(f"{folder} {what}; a folder with a neutral and its shapes was expected.")
+        raise FaceFolderError(f"{folder} is a file; a folder with a neutral and its shapes was expected.")
     check = _Check(folder)
     try:
         files = face_files(folder)
     except FaceFolderError as error:
-        meshes = plain_meshes(folder)
-        check.add("error", folder, "folder", str(error))
+        described = (folder / FACE_TOML).is_file()
+        meshes = plain_meshes(folder, none_is_well=described)
+        check.add("error", folder / FACE_TOML if described else folder, "folder", check.plain(error))
         check.meshes(meshes)
     else:
-        check.face(files.neutral, files.shapes, files.more, progress)
+        check.face(files, progress)
     return check.report()
 
 
@@ -57,28 +64,71 @@ class _Check:
         """Note something."""
         self._findings.append(Finding(level, file.name or str(file), kind, message))
 
-    def meshes(self, files: list[Path]) -> None:
+    def plain(self, error: Exception) -> str:
+        """An error's words without the file that the finding names anyway."""
+        text = str(error)
+        for path in (self._folder / FACE_TOML, self._folder):
+            text = text.removeprefix(f"{path}: ")
+        return text
+
+    def meshes(self, files: Iterable[Path]) -> None:
         """Read files of which nobody knows what belongs together."""
         for path in files:
             self._read(path)
 
-    def face(self, neutral: Path, shapes: Mapping[str, Path], more: Path | None, progress: Progress) -> None:
+    def face(self, files: FaceFiles, progress: Progress) -> None:
         """Examine a neutral and what are to be its shapes."""
-        progress(0.0, f"reading {neutral.name}")
-        mesh = self._neutral = self._read(neutral, with_textures=True)
+        progress(0.0, f"reading {files.neutral.name}")
+        if files.described is not None:
+            self._description(files.described)
+        elif not is_called_neutral(files.neutral):
+            self.add("warning", files.neutral, "neutral", "is taken for the neutral, being the only mesh.")
+        mesh = self._neutral = self._read(files.neutral, with_textures=True)
         if mesh is None:
-            self.meshes(list(shapes.values()))
+            self.meshes(files.shapes.values())
+            self._as_loaded(files, None, None)
             return
         for kind, message in mesh_findings(mesh):
-            self.add("warning", neutral, kind, message)
+            self.add("warning", files.neutral, kind, message)
         movements = Movements(mesh)
-        for done, (name, path) in enumerate(shapes.items()):
-            progress((done + 1) / (len(shapes) + 1), f"checking {path.name}")
+        for done, (name, path) in enumerate(files.shapes.items()):
+            progress((done + 1) / (len(files.shapes) + 1), f"checking {path.name}")
             shape = self._read(path)
             if shape is not None and self._corresponds(mesh, shape, path):
                 self._shape(movements, path, "", Shape(name, name), shape.positions - mesh.positions)
-        if more is not None:
-            self._more(movements, more, mesh.vertex_count)
+        more = None
+        if files.described is not None and files.described.more is not None:
+            more = self._more(movements, files.described.more, len(files.shapes), mesh.vertex_count)
+        self._as_loaded(files, mesh, more)
+
+    def _description(self, face: DescribedFace) -> None:
+        """What a `face.toml` says in vain, and leaves unsaid."""
+        for sentence in unknown_keys(self._folder):
+            self.add("warning", self._folder / FACE_TOML, "key", sentence)
+        for path in face.unlisted:
+            self.add(
+                "warning",
+                path,
+                "unlisted",
+                f"is not loaded: {FACE_TOML} does not list it. Give it a name and file in [[expressions]].",
+            )
+
+    def _as_loaded(self, files: FaceFiles, neutral: Mesh | None, more: MoreShapes | None) -> None:
+        """What loading refuses although each file is well by itself."""
+        try:
+            if neutral is not None:
+                check_size(len(files.shapes), neutral.vertex_count)
+            if files.described is None:
+                return
+            if neutral is None:
+                read_face_info(self._folder)
+                return
+            count = len(files.shapes) + (len(more.shapes) if more is not None else 0)
+            still = np.broadcast_to(np.float32(0.0), (count, neutral.vertex_count, 3))
+            described_rig(files.described, neutral, still, more)
+        except FaceFolderError as error:
+            where = self._folder if files.described is None else self._folder / FACE_TOML
+            self.add("error", where, "folder", self.plain(error))
 
     def report(self) -> Report:
         """What was found so far."""
@@ -90,7 +140,10 @@ class _Check:
     def _read(self, path: Path, with_textures: bool = False) -> Mesh | None:
         try:
             if path.suffix.lower() != ".obj":
-                return read_mesh(path)
+                mesh = read_mesh(path)
+                for note in mesh.notes:
+                    self.add("warning", path, "left-out", note.removeprefix(f"{path}: "))
+                return mesh
             file = parse_obj(path, read_bytes(path))
         except MeshFileError as error:
             where = f"line {error.line:,}: " if error.line is not None else ""
@@ -98,21 +151,30 @@ class _Check:
             self.add("error", path, kind, f"{where}{error.problem}.{' ' * bool(error.hint)}{error.hint}")
             return None
         if with_textures:
-            for problem in read_libraries(path, file.libraries).problems:
-                self.add("warning", path, "texture", f"{problem}.")
+            self._textures(path, read_libraries(path, file.libraries))
         return file.mesh
+
+    def _textures(self, path: Path, library: Library) -> None:
+        for problem in library.problems:
+            self.add("warning", path, "texture", f"{problem}.")
+        found = {m.texture: m.name for m in library.materials.values() if m.texture is not None}
+        for texture, material in found.items():
+            wrong = picture_problem(texture)
+            if wrong is not None:
+                self.add("warning", texture, "texture", f"the texture of {shortened(material)!r} {wrong}.")
 
     def _corresponds(self, neutral: Mesh, shape: Mesh, path: Path) -> bool:
         unlike = difference(neutral, shape)
         if unlike is None:
             return True
-        self.add("error", path, unlike.cause, f"{unlike.problem} {HINTS[unlike.cause]}")
+        hint = HINTS[unlike.cause].replace("FOLDER", shlex.quote(str(self._folder)))
+        self.add("error", path, unlike.cause, f"{unlike.problem} {hint}")
         return False
 
     def _shape(self, movements: Movements, path: Path, prefix: str, shape: Shape, delta: Float32) -> None:
         empty = False
         for kind, message in movements.findings(delta):
-            level: Level = "error" if kind == "scale" else "warning"
+            level: Level = "error" if kind in ("scale", "turned") else "warning"
             empty = empty or kind == "empty"
             self.add(level, path, kind, prefix + message)
         # The same movement under the names of two conventions (jawOpen, AU27) is meant.
@@ -122,12 +184,13 @@ class _Check:
             self.add("warning", path, "duplicate", f"{prefix}is the same shape as {twin!r}.")
         self._good.append((shape, delta))
 
-    def _more(self, movements: Movements, path: Path, vertex_count: int) -> None:
+    def _more(self, movements: Movements, path: Path, listed: int, vertex_count: int) -> MoreShapes | None:
         try:
             more = read_shapes(path, vertex_count)
-            check_size(len(self._good) + len(more.shapes), vertex_count)
+            check_size(listed + len(more.shapes), vertex_count)
         except FacemorphError as error:
-            self.add("error", path, "unreadable", str(error))
-            return
+            self.add("error", path, "unreadable", str(error).removeprefix(f"{path} "))
+            return None
         for shape, delta in zip(more.shapes, more.deltas, strict=True):
             self._shape(movements, path, f"{shape.name} ", shape, delta)
+        return more

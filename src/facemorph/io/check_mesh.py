@@ -18,17 +18,17 @@ def mesh_findings(mesh: Mesh) -> Iterator[tuple[str, str]]:
     """Kind and message of each thing that looks wrong with a neutral."""
     unused = np.setdiff1d(np.arange(mesh.vertex_count), mesh.corner_vertices)
     if len(unused):
-        yield "stray-vertices", f"{_belong(len(unused))} to no polygon: {numbers(unused)}."
+        yield "stray-vertices", f"{_belong(len(unused))} to no polygon: {vertex_numbers(unused)}."
     flat = _degenerate_polygons(mesh)
     if len(flat):
-        yield "degenerate", f"{_polygons(len(flat))} without area: {numbers(flat)}."
+        yield "degenerate", f"{_polygons(len(flat))} without area: {polygon_numbers(flat)}."
     turned = _unlike_neighbours(mesh)
     if len(turned):
         a, b = (int(p) + 1 for p in turned[0])
         yield (
             "winding",
             f"neighbouring polygons face opposite ways along {len(turned):,} edge{'s' * (len(turned) > 1)}, "
-            f"as {a:,} and {b:,}. Make the normals consistent in your modelling program.",
+            f"as {a} and {b} (counted from 1). Make the normals consistent in your modelling program.",
         )
 
 
@@ -39,10 +39,20 @@ def triangle_areas(positions: Float64, triangles: Int32) -> Float64:
     return areas
 
 
-def numbers(index: Int64, most: int = 5) -> str:
-    """Indices counted from 1 for a message: 3, 8, 9 and 12 more."""
-    shown = ", ".join(f"{i + 1:,}" for i in index[:most].tolist())
-    return f"{shown} and {len(index) - most:,} more" if len(index) > most else shown
+def vertex_numbers(index: Int64) -> str:
+    """Vertices for a message, counted as an OBJ does, and that this is not how `face.toml` does."""
+    return f"{_numbers(index)} (counted from 1, as in an OBJ; face.toml counts from 0)"
+
+
+def polygon_numbers(index: Int64) -> str:
+    """Polygons for a message, counted from 1."""
+    return f"{_numbers(index)} (counted from 1)"
+
+
+def _numbers(index: Int64, most: int = 5) -> str:
+    """Indices from 1: 3, 8, 9 and 12 more. Without commas in thousands, which would look like the list's."""
+    shown = ", ".join(str(i + 1) for i in index[:most].tolist())
+    return f"{shown} and {len(index) - most} more" if len(index) > most else shown
 
 
 def _degenerate_polygons(mesh: Mesh) -> Int64:

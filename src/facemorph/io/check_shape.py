@@ -15,7 +15,8 @@ import numpy as np
 from facemorph.core.arrays import Float32, Float64, Int64
 from facemorph.core.mesh import Mesh
 from facemorph.core.triangles import triangulated
-from facemorph.io.check_mesh import numbers, triangle_areas
+from facemorph.io.check_axes import half_size, turn_between
+from facemorph.io.check_mesh import polygon_numbers, triangle_areas, vertex_numbers
 
 STILL = 1e-6
 """Movement below this part of the diagonal is none: it is what rounding to six digits leaves."""
@@ -50,7 +51,13 @@ class Movements:
         if whole is not None:
             yield whole
             return
-        yield from self._stray(delta)
+        stray = self._stray(delta)
+        if len(stray):
+            moves = "1 vertex moves" if len(stray) == 1 else f"{len(stray):,} vertices move"
+            yield "stray-movement", f"{moves} far away from all neighbours: {vertex_numbers(stray)}."
+            # That tells what they do to the polygons around them; these are looked at as if they went along.
+            delta = delta.copy()
+            delta[stray] = self._means(delta)[stray]
         yield from self._surface(delta)
 
     def alike(self, delta: Float32, other: Float32) -> bool:
@@ -58,12 +65,17 @@ class Movements:
         return bool((np.abs(delta - other) <= STILL * self._size).all())
 
     def _whole(self, delta: Float32) -> Iterator[tuple[str, str]]:
-        """Another size, or another place, of the shape as a whole."""
+        """Another size, other axes, or another place, of the shape as a whole; a few vertices make none."""
         places = self._places + delta
-        ratio = float(np.linalg.norm(np.ptp(places, axis=0))) / self._size
+        ratio = half_size(places) / half_size(self._places)
         if not 1.0 / _OTHER_SIZE <= ratio <= _OTHER_SIZE:
-            words = f"{ratio:.3g} times as large" if ratio > 1.0 else f"{1.0 / ratio:.3g} times as small"
-            yield "scale", f"is {words} as the neutral. Export both in the same unit."
+            times = float(f"{max(ratio, 1.0 / ratio):.2g}")
+            words = f"{times:,g} times as {'large' if ratio > 1.0 else 'small'}"
+            yield "scale", f"is about {words} as the neutral. Export both in the same unit."
+            return
+        turn = turn_between(self._places, places)
+        if turn is not None:
+            yield "turned", turn
             return
         middle = np.median(delta, axis=0)
         spread = float(np.median(np.abs(delta - middle)))
@@ -74,14 +86,12 @@ class Movements:
                 f"lies {shift:.3g} away from the neutral as a whole. Export both at the same place.",
             )
 
-    def _stray(self, delta: Float32) -> Iterator[tuple[str, str]]:
-        """Vertices that move far off from where all of their neighbours move."""
+    def _stray(self, delta: Float32) -> Int64:
+        """Vertices (n,) that move far off from where all of their neighbours move."""
         away = np.linalg.norm(delta - self._means(delta), axis=1)
         suspects = np.flatnonzero(away > _STRAY * self._size)
         stray = [v for v in suspects[:_MOST_SUSPECTS].tolist() if self._leaves_all(v, delta)]
-        if stray:
-            moves = "1 vertex moves" if len(stray) == 1 else f"{len(stray):,} vertices move"
-            yield "stray-movement", f"{moves} far away from all neighbours: {numbers(np.array(stray))}."
+        return np.array(stray, np.int64)
 
     def _leaves_all(self, vertex: int, delta: Float32) -> bool:
         """Whether a vertex moves otherwise than each neighbour, and they move alike."""
@@ -110,7 +120,7 @@ class Movements:
             polygons = np.unique(self._triangles.polygon[chosen])
             if float(old[chosen].sum()) > least:
                 are = "1 polygon is" if len(polygons) == 1 else f"{len(polygons):,} polygons are"
-                yield kind, f"{are} {words}: {numbers(polygons.astype(np.int64))}."
+                yield kind, f"{are} {words}: {polygon_numbers(polygons.astype(np.int64))}."
 
     def _facing(self, areas: Float64) -> Float64:
         """Cosine (T,) between each triangle's normal and that of the other triangles at its corners."""

@@ -1,6 +1,7 @@
 """A face folder that describes itself: `face.toml` names its files, what they show, and who made it.
 
-    name = "Ada"                    description, credit, licence, unit ("cm") likewise
+    name = "Ada"                    description, credit, licence likewise
+    unit = "cm"                     the length that 1 in the meshes is: mm, cm, m or in
     neutral = "neutral.obj"
     shapes = "shapes.npz"           further shapes and soft regions, see `shapes_npz`; may be left out
     [[expressions]]                 in the order of the menu
@@ -8,67 +9,113 @@
     [[landmarks]]
     name = "nose_tip"               vertex = 1234, mpeg4 = "9.3", ibug = 30; the last two may be left out
 
-Every file named must lie in the folder or below it, links followed first. Keys of another name are
-passed over, so that a newer face opens in an older program.
+Where it has no expressions, the meshes in the folder are the shapes, as in a plain folder. Every file
+named must lie in the folder or below it, links followed first. Keys of another name are passed over, so
+that a newer face opens in an older program; `unknown_keys` tells them.
 """
 
 from __future__ import annotations
 
-import tomllib
-from dataclasses import replace
+import difflib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from types import MappingProxyType
 
 import numpy as np
 
+from facemorph.core.arrays import Float32
+from facemorph.core.mesh import Mesh
 from facemorph.core.pose import NEUTRAL
 from facemorph.core.progress import Progress
 from facemorph.core.rig import FaceInfo, Landmark, Rig, Shape, plain_label
-from facemorph.errors import FaceFolderError, MeshDataError, MeshFileError
+from facemorph.errors import FaceFolderError, MeshDataError
 from facemorph.io.face_set import check_size, read_set
 from facemorph.io.inside import inside
-from facemorph.io.limits import NAME_BYTES, SHAPES, TOML_BYTES, read_bytes, shortened
-from facemorph.io.shapes_npz import read_shapes
+from facemorph.io.limits import SHAPES, shortened
+from facemorph.io.plain_folder import neutral_among, plain_meshes, shapes_of
+from facemorph.io.shapes_npz import MoreShapes, read_shapes
+from facemorph.io.toml_table import Table, read_table
 
 FACE_TOML = "face.toml"
+UNITS: Mapping[str, str] = MappingProxyType({"mm": "mm", "cm": "cm", "m": "m", "in": "in", "inch": "in"})
+"""A unit as it may be written -> as it is called."""
+
+_NEUTRAL_FILE = "neutral.obj"
 _LANDMARKS = 10_000
-_T = TypeVar("_T")
+_KEYS: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "": ("name", "description", "credit", "licence", "unit", "neutral", "shapes", "expressions",
+             "landmarks"),
+        "expressions": ("name", "label", "file"),
+        "landmarks": ("name", "vertex", "mpeg4", "ibug"),
+    }
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class DescribedFace:
+    """What a `face.toml` says: the neutral, each shape and its file in order, and perhaps a `shapes.npz`.
+
+    `unlisted` are the meshes in the folder that its expressions leave out.
+    """
+
+    folder: Path
+    neutral: Path
+    shapes: tuple[tuple[Shape, Path], ...]
+    more: Path | None
+    unlisted: tuple[Path, ...]
 
 
 def load_described(folder: Path, progress: Progress, cache: bool) -> Rig:
     """The face of a folder with a `face.toml`. Raises `FaceFolderError` and what reading meshes raises."""
-    table = _table(folder)
-    neutral, files, npz = _files(folder, table)
-    shapes = _expressions(table)
-    found = read_set(neutral, files, progress, cache)
-    count = found.neutral.vertex_count
+    face = described(folder)
+    files = {shape.name: path for shape, path in face.shapes}
+    found = read_set(face.neutral, files, progress, cache)
+    count, deltas = found.neutral.vertex_count, found.deltas
     more = None
-    if npz is not None:
-        progress(0.95, f"reading {npz.name}")
-        more = read_shapes(npz, count)
-        check_size(len(shapes) + len(more.shapes), count)
-    info = _info(folder, table, count)
+    if face.more is not None:
+        progress(0.95, f"reading {face.more.name}")
+        more = read_shapes(face.more, count)
+        check_size(len(deltas) + len(more.shapes), count)
+        deltas = np.concatenate([deltas, more.deltas])
+    return described_rig(face, found.neutral, deltas, more)
+
+
+def described(folder: Path) -> DescribedFace:
+    """What the folder's `face.toml` says of its files. Raises `FaceFolderError`."""
+    table = _table(folder)
+    entries = _expression_entries(table)
+    more = _file(folder, table, "shapes", None) if table.has("shapes") else None
+    if not table.tables("expressions", SHAPES):
+        neutral = _neutral(folder, table)
+        by_name = shapes_of(neutral, _meshes(folder), f"{folder}")
+        shapes = [(Shape(name, plain_label(name)), path) for name, path in by_name.items()]
+        return DescribedFace(folder, neutral, tuple(shapes), more, ())
+    neutral = _file(folder, table, "neutral", _NEUTRAL_FILE)
+    names = [entry.text("name") for entry in entries]
+    shapes = [
+        (Shape(name, entry.text("label", plain_label(name))), _file(folder, entry, "file", None))
+        for name, entry in zip(names, entries, strict=True)
+    ]
+    listed = {path.resolve() for path in (neutral, *(path for _, path in shapes))}
+    unlisted = tuple(path for path in _meshes(folder) if path.resolve() not in listed)
+    return DescribedFace(folder, neutral, tuple(shapes), more, unlisted)
+
+
+def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: MoreShapes | None) -> Rig:
+    """The rig of a neutral and the deltas (K, V, 3) of all shapes, those of a `shapes.npz` last.
+
+    Raises `FaceFolderError` where what `face.toml` says does not fit them.
+    """
+    info = _info(face.folder, _table(face.folder), neutral.vertex_count)
+    shapes = tuple(shape for shape, _ in face.shapes)
     try:
         if more is None:
-            return Rig(found.neutral, shapes, found.deltas, info)
-        deltas = np.concatenate([found.deltas, more.deltas])
-        return Rig(found.neutral, (*shapes, *more.shapes), deltas, info, more.regions)
+            return Rig(neutral, shapes, deltas, info)
+        return Rig(neutral, (*shapes, *more.shapes), deltas, info, more.regions)
     except MeshDataError as error:
-        raise FaceFolderError(f"{folder}: {error}") from error
-
-
-def described_files(folder: Path) -> tuple[Path, dict[str, Path], Path | None]:
-    """The neutral, the shapes by name, and the `shapes.npz` that a folder's `face.toml` names.
-
-    Raises `FaceFolderError`.
-    """
-    return _files(folder, _table(folder))
-
-
-def _files(folder: Path, table: _Table) -> tuple[Path, dict[str, Path], Path | None]:
-    neutral = _file(folder, table, "neutral", "neutral.obj")
-    shapes = {entry.text("name"): _file(folder, entry, "file", None) for entry in _expression_entries(table)}
-    return neutral, shapes, _file(folder, table, "shapes", None) if table.has("shapes") else None
+        raise FaceFolderError(f"{face.folder}: {error}") from error
 
 
 def read_face_info(folder: Path | str) -> FaceInfo:
@@ -77,64 +124,50 @@ def read_face_info(folder: Path | str) -> FaceInfo:
     return _info(folder, _table(folder), None)
 
 
-class _Table:
-    """A table of a TOML file whose values are asked for by key and type."""
-
-    def __init__(self, path: Path, values: Any, where: str = "") -> None:
-        if not isinstance(values, dict):
-            raise FaceFolderError(f"{path}: {where} must be a table.")
-        self.path, self._values, self._where = path, values, where
-
-    def has(self, key: str) -> bool:
-        """Whether the key is there."""
-        return key in self._values
-
-    def text(self, key: str, otherwise: str | None = None) -> str:
-        """A text; where it is not there, `otherwise`, or an error where that is None."""
-        value = self._of(str, key, otherwise)
-        if len(value.encode("utf-8", "replace")) > NAME_BYTES * 4:
-            raise FaceFolderError(f"{self.path}: {self._where}{key} is longer than {NAME_BYTES * 4:,} bytes.")
-        return value
-
-    def number(self, key: str) -> int:
-        """A whole number that must be there."""
-        return self._of(int, key, None)
-
-    def tables(self, key: str, most: int) -> list[_Table]:
-        """The tables of an array; none where it is not there."""
-        values = self._of(list, key, [])
-        if len(values) > most:
-            raise FaceFolderError(f"{self.path}: more than {most:,} {key}.")
-        return [_Table(self.path, v, f"{key} {i + 1}: ") for i, v in enumerate(values)]
-
-    def _of(self, kind: type[_T], key: str, otherwise: _T | None) -> _T:
-        value = self._values.get(key, otherwise)
-        if value is None:
-            raise FaceFolderError(f"{self.path}: {self._where}{key} is missing.")
-        if not isinstance(value, kind) or isinstance(value, bool):
-            wanted = {str: "a text", int: "a whole number", list: "an array of tables"}[kind]
-            raise FaceFolderError(
-                f"{self.path}: {self._where}{key} must be {wanted}, not {shortened(repr(value))}."
-            )
-        return value
+def unknown_keys(folder: Path) -> Iterator[str]:
+    """A sentence for each key of the folder's `face.toml` that means nothing. Raises `FaceFolderError`."""
+    table = _table(folder)
+    told: set[tuple[str, str]] = set()
+    tables = [("", table)]
+    for kind in ("expressions", "landmarks"):
+        if table.has(kind):
+            tables += [(kind, entry) for entry in table.tables(kind, _LANDMARKS)]
+    for kind, entry in tables:
+        for key in entry.unknown(_KEYS[kind]):
+            if (kind, key) not in told:
+                told.add((kind, key))
+                yield _unknown(kind, key)
 
 
-def _table(folder: Path) -> _Table:
-    path = folder / FACE_TOML
-    return _Table(path, _parsed(path))
+def _unknown(kind: str, key: str) -> str:
+    where = f" in [[{kind}]]" if kind else ""
+    if kind and key in _KEYS[""]:
+        meant = f"It is one of the face's own: put it above the first [[{kind}]]."
+    else:
+        close = difflib.get_close_matches(key.casefold(), _KEYS[kind], n=1, cutoff=0.6)
+        meant = f"Did you mean {close[0]!r}?" if close else f"There are: {', '.join(_KEYS[kind])}."
+    return f"nothing is known of {shortened(key)!r}{where}, so it does nothing. {meant}"
 
 
-def _parsed(path: Path) -> dict[str, Any]:
-    try:
-        return tomllib.loads(read_bytes(path, TOML_BYTES).decode("utf-8"))
-    except MeshFileError as error:
-        raise FaceFolderError(str(error)) from error
-    except (ValueError, RecursionError) as error:
-        raise FaceFolderError(f"{path} is not TOML: {shortened(str(error), 120)}.") from error
+def _table(folder: Path) -> Table:
+    return read_table(folder / FACE_TOML)
 
 
-def _file(folder: Path, table: _Table, key: str, otherwise: str | None) -> Path:
-    name = table.text(key, otherwise or None)
+def _meshes(folder: Path) -> list[Path]:
+    """The meshes that lie in the folder itself; none is no error where a table names those below."""
+    return plain_meshes(folder, none_is_well=True)
+
+
+def _neutral(folder: Path, table: Table) -> Path:
+    """The neutral that the table names, else `neutral.obj`, else the one that is called so."""
+    meshes = _meshes(folder)
+    if table.has("neutral") or not meshes or inside(folder, _NEUTRAL_FILE):
+        return _file(folder, table, "neutral", _NEUTRAL_FILE)
+    return neutral_among(meshes, f"{folder}", None)
+
+
+def _file(folder: Path, table: Table, key: str, otherwise: str | None) -> Path:
+    name = table.text(key, otherwise)
     found = inside(folder, name)
     if found is None:
         raise FaceFolderError(
@@ -143,7 +176,7 @@ def _file(folder: Path, table: _Table, key: str, otherwise: str | None) -> Path:
     return found
 
 
-def _expression_entries(table: _Table) -> list[_Table]:
+def _expression_entries(table: Table) -> list[Table]:
     """The expressions but the neutral one, each with a name of its own."""
     entries = [entry for entry in table.tables("expressions", SHAPES) if entry.text("name") != NEUTRAL]
     names = [entry.text("name") for entry in entries]
@@ -155,13 +188,7 @@ def _expression_entries(table: _Table) -> list[_Table]:
     return entries
 
 
-def _expressions(table: _Table) -> tuple[Shape, ...]:
-    entries = _expression_entries(table)
-    names = [entry.text("name") for entry in entries]
-    return tuple(Shape(n, e.text("label", plain_label(n))) for n, e in zip(names, entries, strict=True))
-
-
-def _info(folder: Path, table: _Table, vertex_count: int | None) -> FaceInfo:
+def _info(folder: Path, table: Table, vertex_count: int | None) -> FaceInfo:
     info = FaceInfo(table.text("name", folder.resolve().name or "face"))
     landmarks = tuple(_landmark(entry, vertex_count) for entry in table.tables("landmarks", _LANDMARKS))
     return replace(
@@ -169,17 +196,29 @@ def _info(folder: Path, table: _Table, vertex_count: int | None) -> FaceInfo:
         description=table.text("description", ""),
         credit=table.text("credit", ""),
         licence=table.text("licence", ""),
-        unit=table.text("unit", ""),
+        unit=_unit(table),
         landmarks=landmarks,
     )
 
 
-def _landmark(entry: _Table, vertex_count: int | None) -> Landmark:
-    vertex = entry.number("vertex")
-    if vertex < 0 or (vertex_count is not None and vertex >= vertex_count):
+def _unit(table: Table) -> str:
+    unit = table.text("unit", "").strip()
+    if unit and unit.casefold() not in UNITS:
         raise FaceFolderError(
-            f"{entry.path}: the landmark {shortened(entry.text('name'))!r} is vertex {vertex:,} "
-            f"of {vertex_count or 0:,}."
+            f"{table.path}: unit must be one of {', '.join(dict.fromkeys(UNITS.values()))}, "
+            f"not {shortened(unit)!r}; leave it out where it is not known."
+        )
+    return UNITS[unit.casefold()] if unit else ""
+
+
+def _landmark(entry: Table, vertex_count: int | None) -> Landmark:
+    vertex = entry.number("vertex")
+    name = entry.text("name")
+    if vertex < 0 or (vertex_count is not None and vertex >= vertex_count):
+        last = "" if vertex_count is None else f", the last being {vertex_count - 1}"
+        raise FaceFolderError(
+            f"{entry.path}: the landmark {shortened(name)!r} is vertex {vertex}, which is none of the "
+            f"neutral's; they are counted from 0 here{last}."
         )
     mpeg4 = entry.text("mpeg4") if entry.has("mpeg4") else None
-    return Landmark(entry.text("name"), vertex, mpeg4, entry.number("ibug") if entry.has("ibug") else None)
+    return Landmark(name, vertex, mpeg4, entry.number("ibug") if entry.has("ibug") else None)

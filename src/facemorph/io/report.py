@@ -13,9 +13,10 @@ class Finding:
     """One thing that is wrong ("error": the face does not load, or not as meant) or looks so ("warning").
 
     file     the file's name in the folder, or the folder's own
-    kind     a short key: unreadable, not-finite, vertices, polygons, order, folder, texture, stray-vertices,
-             degenerate, winding, empty, duplicate, scale, moved, collapsed, folded, stray-movement
-    message  in plain words, numbers counted from 1
+    kind     a short key: unreadable, not-finite, vertices, polygons, order, folder, key, unlisted, neutral,
+             left-out, texture, stray-vertices, degenerate, winding, empty, duplicate, scale, turned, moved,
+             collapsed, folded, stray-movement
+    message  in plain words, which say from where numbers are counted
     """
 
     level: Level

@@ -108,6 +108,7 @@ class ComparePage:
     heat: bool = True
     kept: tuple[object, ...] = ()  # what `scenes` were made from
     scenes: tuple[Scene, Scene] | None = None
+    difference: tuple[float, float] = (0.0, 0.0)  # largest and rms, model units
 
 
 @dataclass

@@ -10,9 +10,10 @@ import numpy as np
 from facemorph.core.arrays import Float32, Float64
 from facemorph.core.normals import vertex_normals
 from facemorph.core.rig import Rig
+from facemorph.core.scene import Scene
 from facemorph.core.triangles import Triangles, triangulated
 from facemorph.gl.picking import Pick, pick
-from facemorph.ui.state import App
+from facemorph.ui.state import App, Viewport
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,10 +30,10 @@ def surface_of(rig: Rig) -> Surface:
     return Surface(rig, triangulated(rig.neutral), vertex_normals(rig.neutral.positions, rig.triangles))
 
 
-def shown_places(app: App, vertices: list[int]) -> Float64:
-    """Where vertices (n,) of the shown face are, (n, 3) model units."""
+def shown_places(app: App, vertices: list[int], scene: Scene | None = None) -> Float64:
+    """Where vertices (n,) of the shown face, or of another scene, are; (n, 3) model units."""
     assert app.face is not None
-    rig, scene, at = app.face.rig, app.scene(), np.asarray(vertices, np.int64)
+    rig, scene, at = app.face.rig, scene or app.scene(), np.asarray(vertices, np.int64)
     places = rig.neutral.positions[at].astype(np.float64)
     coefficients = scene.pose.coefficients(rig.names)
     for k in np.flatnonzero(coefficients):
@@ -40,9 +41,12 @@ def shown_places(app: App, vertices: list[int]) -> Float64:
     return places if scene.offsets is None else places + scene.offsets[at]
 
 
-def projected(app: App, points: Float64) -> tuple[Float64, Float64]:
-    """Places in the window (n, 2) of points (n, 3), and units of the window in a model unit there, (n,)."""
-    view, camera = app.viewport, app.camera
+def projected(app: App, points: Float64, view: Viewport | None = None) -> tuple[Float64, Float64]:
+    """Places in the window (n, 2) of points (n, 3), and units of the window in a model unit there, (n,).
+
+    view   the one of the face's views that is meant; None takes the first
+    """
+    view, camera = view or app.views()[0], app.camera
     right, up, back = camera.axes()
     from_eye = points - camera.position()
     depth = np.maximum(-(from_eye @ back), 1e-6)
@@ -64,7 +68,9 @@ def picked(app: App, surface: Surface, x: float, y: float) -> Pick | None:
     if not view.contains(x, y):
         return None
     assert app.face is not None
-    positions = app.scene().positions(app.face.rig)
+    split = app.on_face.split
+    scene = split.right if split is not None and view == app.views()[1] else app.scene()
+    positions = scene.positions(app.face.rig)
     return pick(positions, surface.triangles, app.camera, view.size, *view.pixel(x, y))
 
 

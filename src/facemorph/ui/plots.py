@@ -9,7 +9,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui, implot
 
 from facemorph.core.arrays import Float64
 from facemorph.ui.state import App
-from facemorph.ui.theme import Rgba
+from facemorph.ui.theme import Rgba, faded
 from facemorph.ui.widgets import colours, unit
 
 # Lines are told apart on both grounds, also by people who see few colours (after Okabe and Ito).
@@ -21,13 +21,17 @@ INKS: dict[str, tuple[Rgba, ...]] = {
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """One line of a plot: its name in the legend, x (n,) and y (n,). `dots` marks each value."""
+    """One line of a plot: its name in the legend, x (n,) and y (n,).
+
+    dots    marks each value
+    ground  a wide, quiet line under the others, which may lie upon it
+    """
 
     name: str
     x: Float64
     y: Float64
     dots: bool = False
-    wide: bool = False
+    ground: bool = False
 
 
 def plot(
@@ -56,7 +60,7 @@ def plot(
         if legend:
             outside = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
             implot.setup_legend(implot.Location_.north, outside | implot.LegendFlags_.no_menus)
-        for place, line in enumerate(lines):
+        for place, line in enumerate(sorted(lines, key=lambda line: not line.ground)):
             implot.plot_line(line.name, _array(line.x), _array(line.y), _spec(app, place, line))
         if at is not None:
             mark = implot.Spec(line_color=ImVec4(*colours(app).dim), line_weight=unit())
@@ -78,8 +82,8 @@ def _array(values: Float64) -> Float64:
 
 def _spec(app: App, place: int, line: Line) -> implot.Spec:
     inks = INKS[app.settings.theme]
-    ink = ImVec4(*inks[place % len(inks)])
-    spec = implot.Spec(line_color=ink, line_weight=(4.5 if line.wide else 2.0) * unit())
+    ink = ImVec4(*(faded(colours(app).dim, 0.55) if line.ground else inks[place % len(inks)]))
+    spec = implot.Spec(line_color=ink, line_weight=(7.0 if line.ground else 2.0) * unit())
     if line.dots:
         spec.marker, spec.marker_size = implot.Marker_.circle, 3.0 * unit()
         spec.marker_fill_color = spec.marker_line_color = ink

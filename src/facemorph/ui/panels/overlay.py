@@ -11,7 +11,7 @@ from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend
 from facemorph.ui import actions, handles, regions
 from facemorph.ui.commands import DIRECTION_WORDS, SHADING_WORDS
 from facemorph.ui.layout import Layout
-from facemorph.ui.state import App
+from facemorph.ui.state import App, Viewport
 from facemorph.ui.theme import FONT_PIXELS, Rgba, faded, packed
 from facemorph.ui.widgets import chip, chip_width, colours, cut, unit
 from facemorph.ui.words import NEUTRAL_LABEL, label_of, percent
@@ -45,7 +45,9 @@ def draw(app: App, layout: Layout) -> None:
         if app.on_face.tool is not None:
             app.on_face.tool.paint(app)
         if app.legend is not None:
-            _legend(app, app.legend)
+            _legend(app, app.legend, app.views()[0])
+        if app.on_face.split is not None and app.second_legend is not None:
+            _legend(app, app.second_legend, app.views()[1], lift=2 * imgui.get_frame_height() + 14 * unit())
         if not app.settings.hint_seen and app.expressions:
             _hint(app)
     imgui.end()
@@ -159,11 +161,12 @@ def _open(
     imgui.pop_style_var()
 
 
-def _legend(app: App, legend: Legend) -> None:
-    view, c, scale = app.viewport, colours(app), unit()
+def _legend(app: App, legend: Legend, view: Viewport, lift: float = 0.0) -> None:
+    """A heat map's colours at the lower left of its view, `lift` higher to clear what is there."""
+    c, scale = colours(app), unit()
     width, height, pad = 190 * scale, 10 * scale, 10 * scale
     line = imgui.get_font_size()
-    x, y = view.x + _MARGIN * scale, view.y + view.height - 12 * scale
+    x, y = view.x + _MARGIN * scale, view.y + view.height - 12 * scale - lift
     box = 2 * pad + 2 * line + height + 8 * scale
     if view.width < width + 4 * _MARGIN * scale or view.height < box + 60 * scale:
         return

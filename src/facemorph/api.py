@@ -178,6 +178,7 @@ def facts(rig: Rig) -> dict[str, object]:
         "regions": list(rig.regions.names) if rig.regions else [],
         "credit": rig.info.credit,
         "licence": rig.info.licence,
+        "notes": list(mesh.notes),
     }
 
 

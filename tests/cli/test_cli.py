@@ -210,3 +210,42 @@ def test_a_camera_may_look_from_a_negative_azimuth(folder, tmp_path):
     out = tmp_path / "x.png"
     assert main(["render", str(folder), "--camera", "-30,-5", "--size", "40x40", "-o", str(out)]) == 0
     assert out.is_file()
+
+
+def test_check_takes_a_built_in_name(capsys):
+    assert main(["check", "ada"]) == 0
+    assert "all is well" in capsys.readouterr().out
+
+
+def test_what_a_picture_lacks_is_told_beside_it(capsys, folder, tmp_path):
+    (folder / "neutral.obj").write_text("mtllib gone.mtl face.mtl\nusemtl skin\n" + TRIANGLE)
+    (folder / "face.mtl").write_text("newmtl skin\nKd 1 1 1\nmap_Kd skin.jpg\n")
+    (folder / "skin.jpg").write_bytes(b"")
+    for more in ([], ["--sheet"]):
+        out = tmp_path / "x.png"
+        assert main(["render", str(folder), "--size", "80x60", *more, "-o", str(out)]) == 0
+        captured = capsys.readouterr()
+        assert captured.out.split() == [str(out)]
+        assert ["gone.mtl" in line or "skin.jpg" in line for line in captured.err.splitlines()] == [
+            True,
+            True,
+        ]
+    assert main(["info", str(folder)]) == 0
+    assert "gone.mtl" in capsys.readouterr().out
+
+
+def test_several_built_in_faces_are_refused_with_the_reason(capsys, tmp_path):
+    assert "Name a built-in face alone" in refused(capsys, "render", "ada", "ben", "-o", tmp_path / "x.png")
+
+
+def test_a_repair_is_told_and_its_face_opens(capsys, folder, tmp_path):
+    quad = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 1 3 0\nf 1 2 3 4\nf 4 3 5\n"
+    (folder / "neutral.obj").write_text(quad)
+    (folder / "smile.obj").write_text("v 1 3 1\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 2 3 4 5\nf 5 4 1\n")
+    (folder / "bad.obj").write_text("v x")
+    out = tmp_path / "out"
+    assert main(["check", str(folder), "--repair", str(out)]) == 1
+    told = capsys.readouterr().err.splitlines()
+    assert "smile.obj put in the neutral's order" in told[0]
+    assert told[1].startswith("left out bad.obj: line 1")
+    assert facemorph.load(out).deltas[0].tolist() == [[0, 0, 0]] * 4 + [[0, 0, 1]]

@@ -9,6 +9,7 @@ from pathlib import Path
 import moderngl
 import numpy as np
 import pytest
+from PIL import Image
 
 from facemorph.core.camera import Camera
 from facemorph.core.mesh import Labels, Material, Mesh
@@ -18,6 +19,7 @@ from facemorph.core.rig import Rig
 from facemorph.errors import GraphicsError, OptionError, PoseError, UnknownNameError
 from facemorph.gl import Offscreen, Renderer
 from facemorph.gl.grids import grid_size
+from facemorph.gl.materials import PLAIN
 from tests.gl.heads import head_mesh, many_shapes
 
 SIZE = (160, 120)
@@ -302,3 +304,24 @@ def test_a_face_that_opengl_cannot_hold_leaves_the_one_before(
     renderer.draw(Pose.of({"smile": 1.0}), camera, Look(), SIZE)
     assert np.array_equal(renderer.read(), before)
     renderer.release()
+
+
+@pytest.mark.parametrize("content", ["cut", None])
+def test_a_lost_skin_is_drawn_in_a_skins_colour_and_not_white(
+    screen: Offscreen, folder: Path, content: str | None
+) -> None:
+    mesh = head_mesh()
+    skin = Material("skin", (1.0, 1.0, 1.0), texture_lost=content is None)
+    if content is not None:
+        noise = np.random.default_rng(0).integers(0, 256, (64, 64, 3), np.uint8)
+        Image.fromarray(noise).save(folder / "skin.jpg")
+        (folder / "skin.jpg").write_bytes((folder / "skin.jpg").read_bytes()[:1500])
+        skin = replace(skin, texture=folder / "skin.jpg")
+    no_shapes = np.zeros((0, mesh.vertex_count, 3), np.float32)
+    lost = replace(mesh, materials={**mesh.materials, "skin": skin}, notes=("what is lost",))
+    plain = replace(mesh, materials={**mesh.materials, "skin": Material("skin", PLAIN.diffuse)})
+    pixels = screen.render(Rig(lost, (), no_shapes), size=(64, 64))
+    assert screen.problems[0] == "what is lost"
+    assert len(screen.problems) == (1 if content is None else 2)
+    assert np.array_equal(pixels, screen.render(Rig(plain, (), no_shapes), size=(64, 64)))
+    assert screen.problems == ()

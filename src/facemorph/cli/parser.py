@@ -108,12 +108,13 @@ def _check(parser: Parser) -> None:
         verbs.check,
         "Check a folder of shapes: do they correspond, and are they sound? Status 1 where they are not.",
     )
-    parser.add_argument("folder", metavar="FOLDER", type=Path)
+    parser.add_argument("folder", metavar="FACE", help="a folder, or a built-in face (ada)")
     parser.add_argument(
         "--repair",
         metavar="OUT",
         type=Path,
-        help="write copies of shapes whose vertices stand in another order, put right, into the folder OUT",
+        help="write a copy of the face into the new folder OUT, shapes whose vertices stand in another order "
+        "put right, and files that cannot be read left out",
     )
     _json_option(parser)
 

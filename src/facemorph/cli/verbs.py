@@ -86,8 +86,7 @@ def check(options: argparse.Namespace) -> int:
     else:
         print("\n".join(report.lines()))
     if options.repair is not None:
-        for path in repair_folder(options.folder, options.repair):
-            print(f"wrote {path}", file=sys.stderr)
+        print("\n".join(repair_folder(options.folder, options.repair).lines()), file=sys.stderr)
     return 0 if report.ok else 1
 
 
@@ -98,16 +97,20 @@ def render(options: argparse.Namespace) -> int:
     from facemorph.cli.values import checked_suffix, look_from
     from facemorph.core.camera import direction_angles
     from facemorph.core.picture import picture_size
+    from facemorph.gl import Offscreen, sheet
 
     output = checked_suffix(options.output, ".png")
     look = look_from(options)
     direction_angles(options.camera)
     size = picture_size(options.size) if options.size else None
     rig, scene = rig_and_scene(options)
-    if options.sheet:
-        pixels = api.render_sheet(rig, tile=size or (320, 320), camera=options.camera, look=look)
-    else:
-        pixels = api.render(rig, scene, size=size or (1280, 800), camera=options.camera, look=look)
+    with Offscreen() as screen:
+        if options.sheet:
+            pixels = sheet(screen, rig, tile=size or (320, 320), camera=options.camera, look=look)
+        else:
+            pixels = screen.render(rig, scene, size=size or (1280, 800), camera=options.camera, look=look)
+        for problem in screen.problems:
+            print(problem, file=sys.stderr)
     api.save_picture(output, pixels)
     return _wrote(output)
 

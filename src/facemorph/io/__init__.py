@@ -7,11 +7,12 @@ from facemorph.io.load import load_rig
 from facemorph.io.obj_write import write_obj
 from facemorph.io.png import write_png
 from facemorph.io.read import read_mesh
-from facemorph.io.repair import repair_folder
+from facemorph.io.repair import Repair, repair_folder
 from facemorph.io.report import Finding, Report
 
 __all__ = [
     "Finding",
+    "Repair",
     "Report",
     "check_folder",
     "load_rig",

@@ -59,6 +59,16 @@ def read_foreign(path: Path) -> Mesh:
         raise MeshFileError(path, str(error)) from error
 
 
+def named_files(path: Path) -> tuple[Path, ...]:
+    """The files in its folder that a .gltf names: buffers and pictures. Raises `MeshFileError`."""
+    if path.suffix.lower() not in (".gltf", ".glb"):
+        return ()
+    scene = _scene_json(path, read_bytes(path))
+    parts = [part for kind in ("buffers", "images") for part in scene.get(kind, []) if isinstance(part, dict)]
+    found = (inside(path.parent, unquote(str(part["uri"]))) for part in parts if "uri" in part)
+    return tuple(file for file in dict.fromkeys(found) if file is not None)
+
+
 def _mesh(positions: Float32, corners: Any, loaded: Any) -> Mesh:
     vertices = corners.astype(np.int32)
     starts = np.arange(0, len(vertices) + 1, 3, dtype=np.int32)

@@ -42,6 +42,14 @@ def read_libraries(mesh_path: Path, names: Sequence[str]) -> Library:
     return Library(materials, tuple(problems))
 
 
+def library_files(mesh_path: Path, names: Sequence[str]) -> tuple[Path, ...]:
+    """The material files that an OBJ's `mtllib` lines name, and the textures that these name."""
+    folder = mesh_path.parent
+    files = [folder / name for name in _files(folder, names, [])]
+    textures = (material.texture for material in read_libraries(mesh_path, names).materials.values())
+    return (*files, *(path for path in dict.fromkeys(textures) if path is not None))
+
+
 def _files(folder: Path, names: Sequence[str], problems: list[str]) -> list[str]:
     """The files that mtllib lines name: each a file with blanks in its name, or several files."""
     files = []

@@ -26,6 +26,10 @@ class Table:
             raise FaceFolderError(f"{path}: {where} must be a table.")
         self.path, self._values, self._where = path, values, where
 
+    def values(self) -> dict[str, Any]:
+        """All there is, by key."""
+        return dict(self._values)
+
     def unknown(self, known: Sequence[str]) -> tuple[str, ...]:
         """The keys that are there and not among the known ones."""
         return tuple(key for key in self._values if key not in known)

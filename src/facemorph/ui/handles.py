@@ -46,7 +46,7 @@ def twin_of(app: App, vertex: int) -> int | None:
 
 
 def place(app: App, vertex: int) -> None:
-    """Set a point, or an anchor, at a vertex and at its twin; nothing moves by that."""
+    """Set a point at a vertex and at its twin, which moves nothing; or an anchor, which holds what rests."""
     page = app.lab.handles
     page.selected = vertex
     if handle_at(app, vertex) is not None:

@@ -34,7 +34,6 @@ class Methods:
     _key: tuple[object, ...] = ()
     _scene: Scene | None = None
     _glow: tuple[tuple[tuple[str, float], ...], Float32 | None] = ((), None)
-    _told: str = ""
 
     def scene(self, app: App) -> Scene:
         """What to draw now. A method that cannot do what it is set to is switched off, and says why."""
@@ -87,10 +86,7 @@ class Methods:
         return ""
 
     def _tell(self, app: App, method: str, error: FacemorphError) -> None:
-        words = f"{tab_title(method)} is switched off. {error}"
-        if words != self._told:
-            app.messages.fail(words)
-        self._told = words
+        app.messages.fail(f"{tab_title(method)} is switched off. {error}")
 
     def _partner(self, controls: Controls) -> Partner | None:
         """Whose colours are mixed in: the other person with the greatest weight."""

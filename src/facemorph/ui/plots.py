@@ -51,7 +51,10 @@ def plot(
         implot.create_context()
     _dress(app)
     flags = implot.Flags_.no_menus | implot.Flags_.no_title | implot.Flags_.no_box_select
-    flags |= implot.Flags_.no_mouse_text | (0 if legend else implot.Flags_.no_legend)
+    # The wheel over a plot scrolls the page; lines and axes fit by themselves.
+    flags |= (
+        implot.Flags_.no_mouse_text | implot.Flags_.no_inputs | (0 if legend else implot.Flags_.no_legend)
+    )
     if implot.begin_plot(f"##{name}", ImVec2(-1, height), flags):
         fit = implot.AxisFlags_.auto_fit | implot.AxisFlags_.no_highlight | implot.AxisFlags_.no_menus
         implot.setup_axes(x_title, y_title, fit, fit)

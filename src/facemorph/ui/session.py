@@ -21,7 +21,7 @@ from facemorph.ui.draw import draw_ui
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
 from facemorph.ui.plots import release_plots
-from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show
+from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
 
@@ -195,8 +195,12 @@ class Session:
 
     def _save(self, app: App) -> None:
         path, app.picture_path = app.picture_path, None
-        if path is not None:
+        if path is None:
+            return
+        if app.on_face.split is None:
             actions.write_picture(app, path, self.renderer.read(), self.renderer.legend)
+        else:
+            actions.write_picture(app, path, side_by_side(self.renderer, self.split.renderer))
 
 
 def _another(renderer: DrawsFaces) -> DrawsFaces:

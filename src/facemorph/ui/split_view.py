@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
+import numpy as np
 from imgui_bundle import imgui
 
 from facemorph.core.arrays import UInt8
@@ -73,7 +74,7 @@ class SplitView:
 
     def __init__(self, new_renderer: Callable[[], DrawsFaces]) -> None:
         self._new = new_renderer
-        self._renderer: DrawsFaces | None = None
+        self.renderer: DrawsFaces | None = None
         self._loaded: Face | None = None
         self._drawn: tuple[object, ...] = ()
         self._split: Split | None = None  # as drawn last; holding it keeps its arrays' identities
@@ -98,18 +99,30 @@ class SplitView:
         return new_legend
 
     def _ready(self, app: App) -> DrawsFaces:
-        if self._renderer is None:
-            self._renderer = self._new()
+        if self.renderer is None:
+            self.renderer = self._new()
         if app.face is not None and self._loaded is not app.face:
-            self._renderer.load(app.face.rig)
+            self.renderer.load(app.face.rig)
             self._loaded, self._drawn = app.face, ()
-        return self._renderer
+        return self.renderer
 
     def release(self) -> None:
         """Give the second renderer back."""
-        if self._renderer is not None:
-            self._renderer.release()
-        self._renderer = self._loaded = None
+        if self.renderer is not None:
+            self.renderer.release()
+        self.renderer = self._loaded = None
+
+
+def side_by_side(left: DrawsFaces, right: DrawsFaces | None) -> UInt8:
+    """Both views as one picture (H, W, 4) uint8, each with its legend."""
+    from facemorph.gl.legend import with_legend
+
+    views = []
+    for renderer in (left, right):
+        if renderer is not None:
+            pixels = renderer.read()
+            views.append(pixels if renderer.legend is None else with_legend(pixels, renderer.legend))
+    return np.concatenate(views, axis=1)
 
 
 def show(renderer: DrawsFaces, view: Viewport) -> None:

@@ -14,6 +14,7 @@ from facemorph.core.mesh import Mesh
 from facemorph.core.triangles import triangulated
 from facemorph.errors import MeshFileError
 from facemorph.io import read_mesh
+from facemorph.io.foreign import named_files
 from tests.conftest import bumpy_grid
 
 PLY = """ply
@@ -173,3 +174,15 @@ def test_real_morph_targets_are_told(shared_data: Path) -> None:
     notes = {p.stem: read_mesh(p).notes for p in (shared_data / "gltf").glob("*/*.gltf")}
     assert all("morph target" in note[0] for note in notes.values())
     assert "2 morph targets" in notes["SimpleMorph"][0]
+
+
+def test_the_files_that_a_gltf_names_are_those_in_its_folder(tmp_path: Path, grid: Mesh) -> None:
+    path = exported(tmp_path, grid, "gltf")
+    scene = json.loads(path.read_text())
+    buffers = [buffer["uri"] for buffer in scene["buffers"]]
+    (tmp_path / "a skin.png").write_bytes(b"x")
+    images = [{"uri": uri} for uri in ("a%20skin.png", "gone.png", "../outside.png", "data:,x", 3)]
+    for some, names in ((images, [*buffers, "a skin.png"]), (None, buffers), ([None, {}], buffers)):
+        path.write_text(json.dumps({**scene, "images": some}))
+        assert [file.name for file in named_files(path)] == names
+    assert named_files(exported(tmp_path, grid, "ply")) == ()

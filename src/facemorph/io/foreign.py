@@ -64,7 +64,8 @@ def named_files(path: Path) -> tuple[Path, ...]:
     if path.suffix.lower() not in (".gltf", ".glb"):
         return ()
     scene = _scene_json(path, read_bytes(path))
-    parts = [part for kind in ("buffers", "images") for part in scene.get(kind, []) if isinstance(part, dict)]
+    lists = [scene.get(kind) for kind in ("buffers", "images")]
+    parts = [part for some in lists if isinstance(some, list) for part in some if isinstance(part, dict)]
     found = (inside(path.parent, unquote(str(part["uri"]))) for part in parts if "uri" in part)
     return tuple(file for file in dict.fromkeys(found) if file is not None)
 

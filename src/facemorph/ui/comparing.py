@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from facemorph.core.arrays import Float64
+from facemorph.core.arrays import Float32, Float64
 from facemorph.core.morph import Curve, eased
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
@@ -162,12 +162,21 @@ def _target_name(app: App, rig: Rig) -> str:
 
 def _rebuilt_scene(app: App, rig: Rig, pose: Pose) -> Scene:
     """The slider's way to the target as n points know it: e times the rebuilt displacement (2.13)."""
-    source, target = rig.positions(dict(pose.source)), rig.positions(state_of(_target_name(app, rig)))
-    moved = np.linalg.norm(target - source, axis=1).astype(np.float32)
-    result = rebuilt(rig, source, target, control_vertices(rig, REBUILD_POINTS, moved))
+    way = np.float32(eased(pose.t, pose.curve)) * _rebuilt_way(app, rig, pose)
     still = replace(pose, target=pose.source, t=0.0)
-    e = np.float32(eased(pose.t, pose.curve))
-    contribution = app.methods.bound(app)(still, app.controls)
-    scene = Scene.moved(still, contribution)
-    way = e * (result.positions - source)
+    scene = Scene.moved(still, app.methods.bound(app)(still, app.controls))
     return replace(scene, offsets=way if scene.offsets is None else scene.offsets + way)
+
+
+def _rebuilt_way(app: App, rig: Rig, pose: Pose) -> Float32:
+    """The displacement (V, 3) from the slider's source to its target, rebuilt; kept while both stay."""
+    page, goal = app.lab.compare, _target_name(app, rig)
+    key = (rig, pose.source, goal)
+    kept, way = page.rebuilt
+    if way is None or kept != key:
+        source, target = rig.positions(dict(pose.source)), rig.positions(state_of(goal))
+        moved = np.linalg.norm(target - source, axis=1).astype(np.float32)
+        result = rebuilt(rig, source, target, control_vertices(rig, REBUILD_POINTS, moved))
+        way = result.positions - source
+        page.rebuilt = (key, way)
+    return way

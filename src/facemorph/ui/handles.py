@@ -64,7 +64,7 @@ def place(app: App, vertex: int) -> None:
                 page.selected = None
                 app.messages.tell("There is a point at this place already.")
             continue
-        anchor = page.sets == "Anchor"
+        anchor = page.sets == "Set anchors"
         moved = STILL if anchor or field is None else _vector(field[where])
         handles = replace(handles, handles=(*handles.handles, Handle(where, moved, anchor)))
     if handles is not app.controls.handles:

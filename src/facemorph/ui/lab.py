@@ -32,7 +32,7 @@ class Grab:
 class HandlesPage:
     """The points' page: what a click sets, the point selected and the one under the pointer."""
 
-    sets: str = "Point"
+    sets: str = "Set points"
     mirror: bool = True
     selected: int | None = None
     hovered: int | None = None
@@ -109,6 +109,7 @@ class ComparePage:
     kept: tuple[object, ...] = ()  # what `scenes` were made from
     scenes: tuple[Scene, Scene] | None = None
     difference: tuple[float, float] = (0.0, 0.0)  # largest and rms, model units
+    rebuilt: tuple[tuple[object, ...], Float32 | None] = ((), None)  # whole way by RBF, and what of
 
 
 @dataclass

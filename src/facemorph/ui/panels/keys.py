@@ -15,6 +15,8 @@ MOUSE = (
     ("Move it", "Middle drag, or Shift + left drag"),
     ("Nearer, farther", "Wheel"),
     ("Turn about a point", "Double-click on the face"),
+    ("Set a point (page Handles)", "Click on the face"),
+    ("Take a point away", "Right-click on it, or Delete"),
     ("Type a value", "Double-click on a slider"),
     ("Reset a slider", "Right-click on it"),
     ("Open", "Drop a folder or files on the window"),

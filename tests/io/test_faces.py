@@ -448,3 +448,12 @@ def test_several_words_are_files_and_a_built_in_face_among_them_is_told(tmp_path
             FaceFolderError, match=f"{name} is a built-in face, and several words mean mesh files"
         ):
             load_rig(source)
+
+
+def test_a_refusal_for_its_order_says_what_to_type_even_for_a_folder_with_blanks(tmp_path: Path) -> None:
+    folder = tmp_path / "my face"
+    folder.mkdir()
+    written(folder, "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 1 3 0\nf 1 2 3 4\nf 4 3 5\n", "neutral.obj")
+    written(folder, "v 1 3 1\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 2 3 4 5\nf 5 4 1\n", "up.obj")
+    with pytest.raises(CorrespondenceError, match=f"facemorph check '{folder}' --repair OUT"):
+        load_rig(folder)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -143,7 +144,7 @@ class _Neutral:
         mesh = read_mesh(path)
         unlike = difference(self.file.mesh, mesh)
         if unlike is not None:
-            hint = HINTS[unlike.cause].replace("FOLDER", str(path.parent))
+            hint = HINTS[unlike.cause].replace("FOLDER", shlex.quote(str(path.parent)))
             raise CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
         return mesh.positions
 

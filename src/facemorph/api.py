@@ -23,9 +23,10 @@ from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.core.scene import Scene
-from facemorph.errors import OptionError
+from facemorph.errors import OptionError, PoseError
 
 if TYPE_CHECKING:
+    from facemorph.deform.handles import HandleSet
     from facemorph.deform.rbf import Kernel
     from facemorph.deform.rebuild import Rebuilt
     from facemorph.gl import Offscreen
@@ -108,26 +109,30 @@ def export_positions(rig: Rig, positions: Float32, path: str | Path) -> Path:
     """Write the face with other positions (V, 3) as an OBJ, with the normals of that surface."""
     from facemorph.io import write_obj
 
+    if not np.isfinite(positions).all():
+        raise PoseError("the face flies apart in this pose: its positions are no finite numbers.")
     write_obj(Path(path), rig.neutral.with_positions(positions), vertex_normals(positions, rig.triangles))
     return Path(path)
 
 
-def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> Int32:
-    """Vertices (n,) to rebuild `target` from: so many that cover what moves, or those of a handles file.
+def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> HandleSet:
+    """Points to rebuild `target` from: so many that cover what moves, or those of a handles file.
 
-    Raises `OptionError`, `DeformError`, `UnknownNameError`, `FaceFolderError`.
+    Raises `OptionError`, `DeformError`, `UnknownNameError`, `FaceFolderError`, `MeshFileError`.
     """
+    from facemorph.deform.handles import Handle, HandleSet
     from facemorph.deform.rebuild import control_vertices
     from facemorph.io import read_handles
 
     if isinstance(points, str) and points.isdecimal():
-        points = int(points)
-    if isinstance(points, int):
-        if not 4 <= points <= MOST_POINTS:
-            raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
-        moved = rig.positions(state_of(target)) - rig.positions(state_of(source))
-        return control_vertices(rig, points, np.linalg.norm(moved, axis=1).astype(np.float32))
-    return np.array(read_handles(points, rig).vertices(), np.int32)
+        points = int(points[:9])
+    if not isinstance(points, int):
+        return read_handles(points, rig)
+    if not 4 <= points <= MOST_POINTS:
+        raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
+    moved = rig.positions(state_of(target)) - rig.positions(state_of(source))
+    vertices = control_vertices(rig, points, np.linalg.norm(moved, axis=1).astype(np.float32))
+    return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices))
 
 
 def rebuild(
@@ -150,11 +155,27 @@ def save_expressions(rig: Rig, folder: str | Path, *, size: tuple[int, int] = (8
     with Offscreen() as screen:
         for name in ["neutral", *names]:
             pixels = screen.render(rig, Pose.between("neutral", name, 1.0), size=size)
-            paths.append(save_picture(folder / f"{name}.png", pixels))
+            paths.append(save_picture(_free(folder / f"{file_stem(name)}.png", paths), pixels))
         if names:
             strip = film_strip(screen, rig, names[0])
-            paths.append(save_picture(folder / f"neutral-to-{names[0]}.png", strip))
+            paths.append(save_picture(_free(folder / f"neutral-to-{file_stem(names[0])}.png", paths), strip))
     return paths
+
+
+def file_stem(name: str) -> str:
+    """A shape's name as a file's: letters, digits, blanks, `-`, `_`, dots inside; it stays in its folder."""
+    plain = "".join(c if c.isalnum() or c in " -_." else "_" for c in name[:80]).strip(" .")
+    return plain or "shape"
+
+
+def _free(path: Path, taken: list[Path]) -> Path:
+    """`path`, or one with a number where names of shapes became alike."""
+    names = {other.name.casefold() for other in taken}
+    number, free = 2, path
+    while free.name.casefold() in names:
+        free = path.with_stem(f"{path.stem}-{number}")
+        number += 1
+    return free
 
 
 def facts(rig: Rig) -> dict[str, object]:

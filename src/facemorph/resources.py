@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 from pathlib import Path
 
 from facemorph.errors import UnknownNameError
@@ -16,6 +17,15 @@ def data_folder(name: str) -> Path:
         return bundled
     checkout = _PACKAGE.parent.parent
     return checkout / "assets" / "faces" if name == "faces" else checkout / name
+
+
+def text_font() -> Path | None:
+    """The font of the window, Roboto, as imgui-bundle carries it; found without importing that."""
+    found = importlib.util.find_spec("imgui_bundle")
+    if found is None or found.origin is None:
+        return None
+    path = Path(found.origin).parent / "assets" / "fonts" / "Roboto" / "Roboto-Regular.ttf"
+    return path if path.is_file() else None
 
 
 def builtin_faces() -> dict[str, Path]:

@@ -9,6 +9,7 @@ import pytest
 from PIL import Image
 
 import facemorph
+from facemorph.api import save_expressions
 from facemorph.cli import main
 from facemorph.core.facs import Sides
 from facemorph.core.pose import Pose
@@ -148,3 +149,39 @@ def test_a_damaged_file_of_points_is_refused(ada, capsys, tmp_path, change, said
     write_handles(path, HandleSet(tuple(Handle(v) for v in range(0, 2000, 200))), ada)
     path.write_text(path.read_text().replace(change, said, 1))
     assert "points" in refused(capsys, "rbf", "ada", "--to", "sad", "--points", str(path))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["render", "ada", "--sheet", "--to", "happy", "-o", "x.png"], "--sheet"),
+        (["render", "ada", "--sheet", "--au", "12=1", "-o", "x.png"], "--sheet"),
+        (["rbf", "ada", "--to", "happy", "--c", "5"], "multiquadric"),
+        (["rbf", "ada", "--to", "happy", "--points", "/dev/zero"], "/dev/zero"),
+        (["export", "ada", "--to", "happy", "--t", "1e30", "-o", "x.obj"], "100"),
+        (["export", "ada", "--emotion", "2,0", "-o", "x.obj"], "-1 to 1"),
+        (["export", "ada", "--au", "12(1e30)", "-o", "x.obj"], "100"),
+    ],
+)
+def test_options_that_would_do_nothing_or_harm_are_refused(capsys, tmp_path, monkeypatch, arguments, said):
+    monkeypatch.chdir(tmp_path)
+    assert said in refused(capsys, *arguments)
+
+
+def test_a_small_negative_number_is_no_option(ada, tmp_path):
+    positions = exported(tmp_path, "ada", "--to", "happy", "--t", "-1e-1")
+    np.testing.assert_allclose(positions, ada.positions({"happy": -0.1}), atol=1e-5)
+
+
+def test_names_of_shapes_stay_in_the_folder_of_pictures(tmp_path):
+    mesh = facemorph.load("ada").neutral
+    rig = facemorph.Rig.from_arrays(mesh, {"../escaped": mesh.positions + 1, "..": mesh.positions + 2})
+    paths = save_expressions(rig, tmp_path / "out", size=(32, 32))
+    assert {path.parent for path in paths} == {tmp_path / "out"}
+    assert len({path.name for path in paths}) == len(paths) == 4
+
+
+def test_a_tiny_heat_map_goes_without_a_legend(tmp_path):
+    out = tmp_path / "x.png"
+    assert main(["render", "ada", "--to", "happy", "--shading", "heat", "--size", "8x8", "-o", str(out)]) == 0
+    assert Image.open(out).size == (8, 8)

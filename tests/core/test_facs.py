@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from facemorph.core.emotion import PAPER_POLES, Pole, emotion_weights, on_disc, spread_poles
 from facemorph.core.facs import PROTOTYPES, TABLE_2_1, Sides, known_unit, parsed_units, prototype, units_text
-from facemorph.errors import OptionError, UnknownNameError
+from facemorph.errors import OptionError, PoseError, UnknownNameError
 
 UNITS = (1, 2, 4, 5, 6, 7, 9, 10, 12, 14, 15, 16, 17, 20, 23, 26, 43)
 WEIGHT = st.floats(-2, 2).filter(lambda w: w != 0)
@@ -48,7 +48,7 @@ def test_letters_and_prefixes_are_understood():
 
 @pytest.mark.parametrize("text", ["AU", "smile", "AU1++4", "12(much)", "12(nan)", "1+4;15", "1" * 3000])
 def test_text_that_is_no_units_is_refused(text):
-    with pytest.raises((OptionError, UnknownNameError)):
+    with pytest.raises((OptionError, PoseError, UnknownNameError)):
         parsed_units(text, UNITS)
 
 
@@ -60,8 +60,7 @@ def test_a_unit_the_face_lacks_is_named_with_those_it_has():
 @pytest.mark.parametrize("x", np.linspace(-1, 1, 21))
 @pytest.mark.parametrize("y", np.linspace(-1, 1, 21))
 def test_the_maps_weights_are_the_papers_rule_exactly(x, y):
-    cx, cy = on_disc(float(x), float(y))
-    rule = {"sad": max(cx, 0), "afraid": max(-cx, 0), "happy": max(cy, 0), "angry": max(-cy, 0)}
+    rule = {"sad": max(x, 0), "afraid": max(-x, 0), "happy": max(y, 0), "angry": max(-y, 0)}
     assert emotion_weights(float(x), float(y)) == {
         name: weight for name, weight in rule.items() if weight > 0
     }
@@ -74,7 +73,14 @@ def test_with_any_poles_the_weights_lead_back_to_the_cursor(count, x, y):
     assert len(weights) <= 2
     angle = {pole.name: math.radians(pole.angle_deg) for pole in poles}
     back = [sum(w * f(angle[n]) for n, w in weights.items()) for f in (math.cos, math.sin)]
-    np.testing.assert_allclose(back, on_disc(x, y), atol=1e-9)
+    np.testing.assert_allclose(back, (x, y), atol=1e-9)
+
+
+@given(st.floats(-9, 9), st.floats(-9, 9))
+def test_a_round_pad_keeps_the_direction_and_never_leaves_the_disc(x, y):
+    cx, cy = on_disc(x, y)
+    assert math.hypot(cx, cy) <= 1 + 1e-12
+    assert cx * y == pytest.approx(cy * x, abs=1e-9)
 
 
 def test_at_a_pole_its_expression_stands_alone_and_in_the_middle_none():
@@ -95,3 +101,13 @@ def test_poles_that_span_no_disc_are_refused(poles):
         emotion_weights(0.5, 0.5, poles)
     with pytest.raises(OptionError, match="two numbers"):
         emotion_weights(float("nan"), 0.0)
+
+
+def test_a_formula_is_put_on_top_of_what_is_there_side_by_side():
+    present = parsed_units("L12(0.4)", UNITS)
+    assert parsed_units("R12", UNITS, present) == {12: Sides(0.4, 1.0)}
+
+
+def test_weights_out_of_sight_are_refused():
+    with pytest.raises(PoseError, match="100"):
+        parsed_units("12(1e30)", UNITS)

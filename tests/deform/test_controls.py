@@ -63,8 +63,9 @@ def test_what_did_not_change_is_not_made_again(rig, controls):
 
 
 def test_a_mixture_of_people_wears_what_the_other_methods_make(rig, controls):
-    other = replace(rig, neutral=rig.neutral.with_positions(rig.neutral.positions * np.float32(1.3)))
-    plain = replace(controls, handles=HandleSet(), regions={}, facs={12: Sides.both(0.5)})
+    larger = rig.neutral.with_positions(rig.neutral.positions * np.float32(1.3))
+    other = replace(rig, neutral=larger, deltas=rig.deltas[:, ::-1].copy())
+    plain = replace(controls, handles=HandleSet(), regions={})
     mixed = replace(plain, people=replace(plain.people, mix=PeopleMix({"me": 1.0}, "you", 1.0)))
     pose = Pose.of({"happy": 0.2})
     shown = BoundControls(rig, "me", {"you": other})(pose, mixed).positions(rig, pose)

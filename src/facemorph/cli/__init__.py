@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
@@ -16,6 +17,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns its exit status. An error a person caused is one line, and status 2."""
     from facemorph.cli.parser import parsed
 
+    _print_any_letter()
     try:
         options = parsed(sys.argv[1:] if argv is None else list(argv))
         status = int(options.verb(options))
@@ -33,6 +35,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _refused(f"{error.filename or 'the system'}: {error.strerror or error}.")
     except KeyboardInterrupt:
         return STATUS_INTERRUPTED
+
+
+def _print_any_letter() -> None:
+    """Names that the terminal's encoding lacks are printed escaped, and stop nothing."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _refused(problem: str) -> int:

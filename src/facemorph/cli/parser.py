@@ -18,7 +18,7 @@ from facemorph.errors import OptionError
 from facemorph.resources import builtin_faces
 
 FACE_HELP = "a built-in face (ada), a folder, or mesh files of which the first is the neutral"
-PAIR_OPTIONS = ("--emotion", "--camera")
+SIGNED_OPTIONS = ("--emotion", "--camera", "--t", "--s", "--c")
 VERBS = ("view", "faces", "info", "check", "render", "export", "rbf", "doctor")
 
 
@@ -36,7 +36,7 @@ def parsed(arguments: Sequence[str]) -> argparse.Namespace:
     if not arguments or arguments[0] not in {*VERBS, *general}:
         _refuse_misspelt(arguments[0] if arguments else "")
         arguments = ["view", *arguments]
-    return _parser().parse_args(_with_negative_pairs(arguments))
+    return _parser().parse_args(_with_signed_values(arguments))
 
 
 def _refuse_misspelt(word: str) -> None:
@@ -46,11 +46,11 @@ def _refuse_misspelt(word: str) -> None:
         raise OptionError(f"no verb or face is called {word!r}. Did you mean {close[0]!r}?")
 
 
-def _with_negative_pairs(arguments: Sequence[str]) -> list[str]:
-    """`--emotion -0.3,0.4` as one word: argparse takes a pair that begins with a minus for an option."""
+def _with_signed_values(arguments: Sequence[str]) -> list[str]:
+    """`--emotion -0.3,0.4` as one word: argparse takes `-0.3,0.4` and `-1e-3` for options."""
     joined: list[str] = []
     for word in arguments:
-        if joined and joined[-1] in PAIR_OPTIONS and word[:1] == "-" and word[1:2] in set("0123456789."):
+        if joined and joined[-1] in SIGNED_OPTIONS and word[:1] == "-" and word[1:2] in set("0123456789."):
             joined[-1] = f"{joined[-1]}={word}"
         else:
             joined.append(word)
@@ -168,7 +168,7 @@ def _rbf(parser: Parser) -> None:
     parser.add_argument(
         "--points", default="40", metavar="N|FILE", help="so many points, or a file of points (default: 40)"
     )
-    parser.add_argument("--kernel", default="r", metavar="NAME", help=f"{', '.join(KERNELS)} (default: r)")
+    parser.add_argument("--kernel", metavar="NAME", help=f"{', '.join(KERNELS)} (default: r, or the file's)")
     parser.add_argument("--c", metavar="C", help="the multiquadric's c, in the face's unit")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="an OBJ of the rebuilt face to write"

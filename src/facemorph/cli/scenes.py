@@ -6,9 +6,8 @@ import argparse
 from collections.abc import Sequence
 
 from facemorph.cli.values import number, pose_between, pose_from
-from facemorph.cli.values import weight as weight_of
 from facemorph.core.facs import Sides, known_unit, parsed_units, units_of
-from facemorph.core.pose import NEUTRAL
+from facemorph.core.pose import NEUTRAL, parsed_weight
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene
 from facemorph.deform.controls import BoundControls, Controls, EmotionControl, PeopleControl
@@ -39,7 +38,7 @@ def _bilinear(options: argparse.Namespace) -> tuple[Rig, Scene]:
         raise OptionError("--bilinear names its own faces and expressions; leave out FACE, --from and --to.")
     names = _pair(options.bilinear[0], "two faces")
     expressions = _pair(options.bilinear[1], "two expressions")
-    s = number(options.s, "--s") if options.s is not None else 0.0
+    s = parsed_weight(options.s, "--s") if options.s is not None else 0.0
     rig, other = (api.load(name) for name in names)
     pose = pose_between(options, rig, *expressions)
     for name in pose.names():
@@ -72,11 +71,11 @@ def units_from(words: Sequence[str], rig: Rig) -> dict[int, Sides]:
     for word in words:
         name, equals, value = word.partition("=")
         if not equals:
-            units.update(parsed_units(word, available))
+            units = parsed_units(word, available, units)
             continue
         name = name.strip().upper()
         side = name[0] if name[:1] in ("L", "R") else ""
-        unit, weight = known_unit(name[len(side) :], available), weight_of(value, f"--au {name}")
+        unit, weight = known_unit(name[len(side) :], available), parsed_weight(value, f"--au {name}")
         old = units.get(unit, Sides.both(0.0))
         units[unit] = Sides(old.left if side == "R" else weight, old.right if side == "L" else weight)
     return units
@@ -90,6 +89,8 @@ def _emotion(text: str | None, rig: Rig) -> EmotionControl:
     if not comma:
         raise OptionError(f"--emotion takes X,Y, each from -1 to 1; not {text!r}.")
     control = EmotionControl(number(x, "--emotion"), number(y, "--emotion"))
+    if max(abs(control.x), abs(control.y)) > 1.0:
+        raise OptionError(f"--emotion takes X,Y, each from -1 to 1; not {text!r}.")
     for name in control.weights():
         rig.shape(name)
     return control

@@ -7,7 +7,9 @@ import json
 import sys
 from pathlib import Path
 
-from facemorph.errors import DisplayError
+import numpy as np
+
+from facemorph.errors import DisplayError, OptionError
 
 DEFAULT_FACE = "ada"
 
@@ -104,6 +106,8 @@ def render(options: argparse.Namespace) -> int:
     direction_angles(options.camera)
     size = picture_size(options.size) if options.size else None
     rig, scene = rig_and_scene(options)
+    if options.sheet and (scene.offsets is not None or scene.pose.names()):
+        raise OptionError("--sheet shows every expression at full strength; leave out the options of a pose.")
     with Offscreen() as screen:
         if options.sheet:
             pixels = sheet(screen, rig, tile=size or (320, 320), camera=options.camera, look=look)
@@ -133,11 +137,15 @@ def rbf(options: argparse.Namespace) -> int:
     from facemorph.cli.values import checked_suffix, number
     from facemorph.deform.rbf import checked_kernel
 
-    kernel = checked_kernel(options.kernel)
+    asked = None if options.kernel is None else checked_kernel(options.kernel)
     c = None if options.c is None else number(options.c, "--c")
     output = checked_suffix(options.output, ".obj") if options.output else None
     rig = api.load(options.face)
-    vertices = api.control_points(rig, options.source, options.target, options.points)
+    points = api.control_points(rig, options.source, options.target, options.points)
+    kernel, c = asked or points.kernel, points.c if c is None and asked is None else c
+    if c is not None and kernel != "multiquadric":
+        raise OptionError(f"--c belongs to the kernel multiquadric, not to {kernel}.")
+    vertices = np.array(points.vertices(), np.int32)
     result = api.rebuild(rig, options.source, options.target, vertices, kernel, c)
     facts = {
         "face": rig.info.name,

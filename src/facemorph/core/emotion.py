@@ -1,4 +1,4 @@
-"""The emotion map: a cursor on a disc of expressions mixes the two poles it lies between (thesis, 2.1.2).
+"""The emotion map: a cursor among poles of expressions mixes the two poles it lies between (thesis, 2.1.2).
 
 Poles of the paper: happy at +y, anger at -y, sad at +x, fear at -x, neutral in the middle. A cursor
 (Cx, Cy) gives
@@ -37,16 +37,18 @@ def spread_poles(names: Sequence[str]) -> tuple[Pole, ...]:
 
 
 def on_disc(x: float, y: float) -> tuple[float, float]:
-    """The cursor, brought back to the unit disc if it lies outside. Raises `OptionError` for no number."""
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise OptionError(f"a place on the emotion map is two numbers from -1 to 1, not {x}, {y}.")
+    """The cursor, brought back to the unit disc if it lies outside: what a round pad does with a hand."""
     length = math.hypot(x, y)
     return (x / length, y / length) if length > 1.0 else (x, y)
 
 
 def emotion_weights(x: float, y: float, poles: Sequence[Pole] = PAPER_POLES) -> dict[str, float]:
-    """Weights by expression for a cursor; only those above 0. Raises `OptionError` for unfit poles."""
-    x, y = on_disc(x, y)
+    """Weights by expression for a cursor; only those above 0.
+
+    Raises `OptionError` for unfit poles and for a cursor that is no two numbers.
+    """
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise OptionError(f"a place on the emotion map is two numbers from -1 to 1, not {x}, {y}.")
     if x == 0.0 and y == 0.0:
         return {}
     ring = _checked(poles)

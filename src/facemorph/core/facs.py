@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
+from facemorph.core.pose import parsed_weight
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError, UnknownNameError
 
@@ -82,11 +82,16 @@ def _term(side: str, number: int, weight: float) -> str:
     return f"{side}{number}" if weight == 1.0 else f"{side}{number}({weight:.12g})"
 
 
-def parsed_units(text: str, available: tuple[int, ...]) -> dict[int, Sides]:
-    """Units from text such as "AU1+4+15", "6C+12E", "L12(0.4)". Raises `OptionError`, `UnknownNameError`."""
+def parsed_units(
+    text: str, available: tuple[int, ...], present: Mapping[int, Sides] = MappingProxyType({})
+) -> dict[int, Sides]:
+    """Units from text such as "AU1+4+15", "6C+12E", "L12(0.4)", put on top of the `present` ones.
+
+    Raises `OptionError`, `PoseError`, `UnknownNameError`.
+    """
     if len(text) > _LONGEST_TEXT:
         raise OptionError(f"units are a short text as AU1+4+15; this one has {len(text):,} letters.")
-    units: dict[int, Sides] = {}
+    units = dict(present)
     for part in text.split("+") if text.strip() else []:
         match = _TERM.fullmatch(part.strip())
         if match is None:
@@ -113,10 +118,4 @@ def _weight(letter: str | None, number: str | None) -> float:
         return INTENSITIES[letter.upper()]
     if number is None:
         return 1.0
-    try:
-        weight = float(number)
-    except ValueError:
-        weight = math.nan
-    if not math.isfinite(weight):
-        raise OptionError(f"a unit's weight is a number, as in 12(0.5); not {number!r}.")
-    return weight
+    return parsed_weight(number, "a unit's weight, as in 12(0.5),")

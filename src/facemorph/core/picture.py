@@ -10,6 +10,8 @@ from facemorph.errors import OptionError
 Shading = Literal["skin", "clay", "wire", "normals", "heat"]
 SHADINGS: tuple[Shading, ...] = get_args(Shading)
 LARGEST_SIDE = 8192
+# What textures may be; Pillow would hand others, such as EPS, to other programs.
+PICTURE_FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP")
 
 
 @dataclass(frozen=True)

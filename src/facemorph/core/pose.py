@@ -18,12 +18,37 @@ from facemorph.core.morph import Curve, eased, mixed_coefficients
 from facemorph.errors import PoseError, UnknownNameError
 
 NEUTRAL = "neutral"
+# A weight beyond this, either way, is a slip: nothing of the face would be left in sight.
+LARGEST_WEIGHT = 100.0
 State = Mapping[str, float]
 
 
 def state_of(name: str) -> State:
     """The state called `name`: that shape alone at weight 1, or no shape for `neutral`."""
     return {} if name == NEUTRAL else {name: 1.0}
+
+
+def parsed_weight(text: str, what: str) -> float:
+    """A weight from text. Raises `PoseError` naming `what` for no number, or one beyond `LARGEST_WEIGHT`."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise PoseError(f"{what} takes a number, not {text!r}.")
+    if abs(value) > LARGEST_WEIGHT:
+        raise PoseError(
+            f"{what} takes a number from -{LARGEST_WEIGHT:g} to {LARGEST_WEIGHT:g}, not {text!r}."
+        )
+    return value
+
+
+def mixed_state(source: State, target: State, t: float, curve: Curve = "linear") -> dict[str, float]:
+    """The mixture at `t` between two states, (2.5) on their weights; shapes of weight 0 are left out."""
+    e = eased(t, curve)
+    names = dict.fromkeys([*source, *target])
+    mixed = {name: (1.0 - e) * source.get(name, 0.0) + e * target.get(name, 0.0) for name in names}
+    return {name: weight for name, weight in mixed.items() if weight != 0.0}
 
 
 @dataclass(frozen=True)
@@ -57,10 +82,7 @@ class Pose:
 
     def way_state(self) -> dict[str, float]:
         """The mixture between source and target at the present t, without `weights`."""
-        e = eased(self.t, self.curve)
-        names = [*self.source, *(name for name in self.target if name not in self.source)]
-        mixed = {n: (1.0 - e) * self.source.get(n, 0.0) + e * self.target.get(n, 0.0) for n in names}
-        return {name: weight for name, weight in mixed.items() if weight != 0.0}
+        return mixed_state(self.source, self.target, self.t, self.curve)
 
     def with_weight(self, name: str, weight: float) -> Pose:
         """The same pose with one added shape's weight set; 0 takes it out."""

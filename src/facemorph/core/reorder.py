@@ -175,10 +175,13 @@ class _Refinement:
         # The rarest colour of each part: its vertices differ the most in place.
         rank = np.lexsort([which[open_to], each[which[open_to]], self._part[open_to]])
         first_of_part = np.unique(self._part[open_to][rank], return_index=True)[1]
-        found = [
-            (*self._nearest(int(v), np.flatnonzero(which == which[v]), known, order), int(v))
-            for v in open_to[rank][first_of_part][:_MOST_PARTS]
-        ]
+        by_colour = np.argsort(which, kind="stable")
+        ends = np.cumsum(each)
+        found = []
+        for v in open_to[rank][first_of_part][:_MOST_PARTS]:
+            colour = which[v]
+            alike = by_colour[ends[colour] - each[colour] : ends[colour]]
+            found.append((*self._nearest(int(v), alike, known, order), int(v)))
         pairs, taken = [], set()
         for _, theirs, mine in sorted(found):
             if self._part[theirs] not in taken:

@@ -119,7 +119,7 @@ class Rig:
         for shape in self.shapes:
             if shape.name == name:
                 return shape
-        raise UnknownNameError("shape", name, (NEUTRAL, *self.names))
+        raise UnknownNameError("shape", name, self.names)
 
     def positions(self, pose: Pose | Mapping[str, float]) -> Float32:
         """Positions (V, 3) float32 of the face in `pose` (a `Pose`, or shape name -> weight)."""

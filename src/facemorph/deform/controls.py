@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from facemorph.core.arrays import Float32
 from facemorph.core.emotion import PAPER_POLES, Pole, emotion_weights
 from facemorph.core.facs import Sides
-from facemorph.core.morph import Curve, eased
+from facemorph.core.morph import Curve
 from facemorph.core.motion import Contribution, total
-from facemorph.core.pose import Pose, State
+from facemorph.core.pose import Pose, State, mixed_state
 from facemorph.core.rig import Rig
 from facemorph.deform.handles import BoundHandles, HandleSet
 from facemorph.deform.people import People, PeopleMix
@@ -49,10 +49,7 @@ class PeopleControl:
 
     def weights(self) -> dict[str, float]:
         """Weights by expression at the present t."""
-        e = eased(self.t, self.curve)
-        names = dict.fromkeys([*self.source, *self.target])
-        mixed = {n: (1.0 - e) * self.source.get(n, 0.0) + e * self.target.get(n, 0.0) for n in names}
-        return {name: weight for name, weight in mixed.items() if weight != 0.0}
+        return mixed_state(self.source, self.target, self.t, self.curve)
 
 
 @dataclass(frozen=True)
@@ -136,4 +133,7 @@ class BoundControls:
         if self._bound_people is None or self._bound_people[0] != others:
             known = {name: self._people[name] for name in others if name in self._people}
             self._bound_people = (others, People({self._name: self.rig, **known}))
-        return self._bound_people[1].offsets(weights, pose.coefficients(self.rig.names))
+        people = self._bound_people[1]
+        offsets = people.offsets(weights, pose.coefficients(self.rig.names))
+        uneven = {n: s for n, s in controls.facs.items() if s.left != s.right and controls.on("facs")}
+        return offsets + people.sided_offsets(weights, uneven) if uneven else offsets

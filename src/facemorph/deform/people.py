@@ -17,7 +17,9 @@ import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
 from facemorph.core.correspondence import difference
+from facemorph.core.facs import Sides
 from facemorph.core.rig import Rig
+from facemorph.deform.sides import SidedUnits
 from facemorph.errors import CorrespondenceError, UnknownNameError
 
 
@@ -58,6 +60,7 @@ class People:
             if unlike is not None:
                 hint = "Only faces of one topology can be mixed; the built-in people are."
                 raise CorrespondenceError(name, unlike.problem, cause=unlike.cause, hint=hint)
+        self._units: dict[int, SidedUnits] = {}
         self._index = {n: {s: k for k, s in enumerate(rig.names)} for n, rig in self._rigs.items()}
 
     def offsets(self, weights: Mapping[str, float], coefficients: Float64) -> Float32:
@@ -77,6 +80,26 @@ class People:
                 total += weight * coefficient * self._delta_difference(name, shape)
         return total.astype(np.float32)
 
+    def sided_offsets(self, weights: Mapping[str, float], units: Mapping[int, Sides]) -> Float32:
+        """What one-sided units add beyond the first rig's own, (V, 3): each person's sides of own units.
+
+        sum_i s_i (u_i - u_1) with u_i person i's offsets of the units whose sides differ.
+        """
+        total = np.zeros(self._base.neutral.positions.shape)
+        own = self._sided(self._base, units)
+        for name, weight in weights.items():
+            if self._rig(name) is not self._base:
+                total += weight * (self._sided(self._rig(name), units) - own)
+        return total.astype(np.float32)
+
+    def _sided(self, rig: Rig, units: Mapping[int, Sides]) -> Float64:
+        key = id(rig)
+        if key not in self._units:
+            self._units[key] = SidedUnits(rig)
+        offsets = self._units[key](units).offsets
+        shape = rig.neutral.positions.shape
+        return np.zeros(shape) if offsets is None else offsets.astype(np.float64)
+
     def _delta_difference(self, name: str, shape: str) -> Float32:
         places = self._index[name]
         if shape not in places:
@@ -92,7 +115,7 @@ class People:
 
 
 def bilinear(key_frames: Sequence[Sequence[Float32]], s: float, t: float) -> Float32:
-    """(2.10) as written: key_frames[i][j] (V, 3) is person i with expression j; the truth for `People`."""
+    """(2.10) as written; key_frames[i][j] (V, 3) is person i with expression j. The truth for `People`."""
     first, second = (
         (1.0 - t) * left.astype(np.float64) + t * right.astype(np.float64) for left, right in key_frames
     )

@@ -116,12 +116,17 @@ def _system(points: Float64, kernel_of: Callable[[Float64], Float64]) -> Float64
 
 
 def _inverted(system: Float64) -> Float64:
-    if not np.linalg.cond(system) < SINGULAR:
+    try:
+        inverse = np.asarray(np.linalg.inv(system), np.float64)
+        condition = float(np.linalg.norm(system, 1) * np.linalg.norm(inverse, 1))
+    except np.linalg.LinAlgError:
+        condition = np.inf
+    if not condition < SINGULAR:
         raise DeformError(
             "these control points make a system that cannot be solved: too near each other for this kernel. "
             "Move them apart, take some away, or choose the kernel r."
         )
-    return np.asarray(np.linalg.inv(system), np.float64)
+    return inverse
 
 
 def _evaluated(

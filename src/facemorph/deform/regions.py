@@ -13,8 +13,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
-from facemorph.core.morph import Curve, eased
-from facemorph.core.pose import State
+from facemorph.core.morph import Curve
+from facemorph.core.pose import State, mixed_state
 from facemorph.core.rig import Rig
 from facemorph.errors import DeformError, UnknownNameError
 
@@ -41,9 +41,7 @@ class RegionControl:
 
     def state(self) -> dict[str, float]:
         """Shape name -> weight at the present t."""
-        e = eased(self.t, self.curve)
-        names = dict.fromkeys([*self.source, *self.target])
-        return {n: (1.0 - e) * self.source.get(n, 0.0) + e * self.target.get(n, 0.0) for n in names}
+        return mixed_state(self.source, self.target, self.t, self.curve)
 
     @property
     def moves_rigidly(self) -> bool:

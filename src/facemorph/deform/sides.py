@@ -10,6 +10,7 @@ from facemorph.core.arrays import Float32
 from facemorph.core.facs import Sides
 from facemorph.core.motion import Contribution
 from facemorph.core.rig import Rig
+from facemorph.errors import UnknownNameError
 
 # Half the width of the border between the sides, in parts of the face's half width.
 BORDER = 0.12
@@ -36,6 +37,8 @@ class SidedUnits:
             return Contribution(weights)
         offsets = np.zeros_like(self._rig.neutral.positions)
         for number, sides in uneven:
+            if f"AU{number}" not in self._index:
+                raise UnknownNameError("FACS unit", f"AU{number}", self._index)
             delta = self._rig.deltas[self._index[f"AU{number}"]]
             offsets += delta * (self._lean * np.float32(sides.left - sides.right))
         return Contribution(weights, offsets)

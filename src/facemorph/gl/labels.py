@@ -5,19 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from facemorph.core.arrays import UInt8
+from facemorph.resources import text_font
 
 if TYPE_CHECKING:
     from PIL.Image import Image
     from PIL.ImageFont import FreeTypeFont, ImageFont
 
 ELLIPSIS = "…"
+# Roboto stands smaller in its em than Pillow's own; so letters of both are as high.
+_ROBOTO_SIZE = 1.12
 
 
 def font(size: float) -> FreeTypeFont | ImageFont:
-    """Pillow's own sans at `size` pixels; it travels with Pillow, so pictures are alike everywhere."""
+    """A sans at `size` pixels: the window's Roboto, which has accents and Cyrillic, or else Pillow's own."""
     from PIL import ImageFont
 
-    return ImageFont.load_default(max(size, 6.0))
+    path = text_font()
+    if path is None:
+        return ImageFont.load_default(max(size, 6.0))
+    return ImageFont.truetype(str(path), max(size, 6.0) * _ROBOTO_SIZE)
 
 
 def text_width(text: str, face: FreeTypeFont | ImageFont) -> float:

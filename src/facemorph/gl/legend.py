@@ -22,13 +22,16 @@ if TYPE_CHECKING:
 _INK = (240, 242, 245, 255)
 _SOFT_INK = (205, 209, 216, 255)
 _PANEL = (18, 20, 24, 190)
+_SMALLEST_PICTURE = 64
 _LYING_BELOW = 480  # pixels of width
 
 
 def with_legend(pixels: UInt8, legend: Legend) -> UInt8:
-    """`pixels` (H, W, 4) with `legend` over them; the same size."""
+    """`pixels` (H, W, 4) with `legend` over them; the same size. Tiny pictures have no room for one."""
     from PIL import Image, ImageDraw
 
+    if min(pixels.shape[:2]) < _SMALLEST_PICTURE:
+        return pixels
     picture = as_image(pixels)
     layer = Image.new("RGBA", picture.size, (0, 0, 0, 0))
     draw = _lying if picture.width < _LYING_BELOW else _standing

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from facemorph.core.mesh import Material
+from facemorph.core.picture import PICTURE_FORMATS
 from facemorph.errors import GraphicsError
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def _read(path: Path) -> Picture:
     from PIL import Image
 
     try:
-        with warnings.catch_warnings(), Image.open(path) as opened:
+        with warnings.catch_warnings(), Image.open(path, formats=PICTURE_FORMATS) as opened:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             if opened.width * opened.height > LARGEST_PIXELS:
                 raise GraphicsError(

@@ -41,14 +41,20 @@ _NEEDED = ("positions", "polygon_starts", "corner_vertices", "uvs", "normals", "
 _OPTIONAL = ("corner_uvs", "corner_normals", "colours", *_LABELS)
 
 
-def cache_folder() -> Path:
-    """Where entries lie: `FACEMORPH_CACHE_DIR`, or the platform's usual place for what can be made again."""
+def cache_folder() -> Path | None:
+    """Where entries lie: `FACEMORPH_CACHE_DIR`, or the platform's usual place for what can be made again.
+
+    None for a user without a home.
+    """
     chosen = os.environ.get(FOLDER_VARIABLE)
     if chosen:
         return Path(chosen) / "meshes"
     import platformdirs
 
-    return Path(platformdirs.user_cache_dir("facemorph", appauthor=False)) / "meshes"
+    try:
+        return Path(platformdirs.user_cache_dir("facemorph", appauthor=False)) / "meshes"
+    except RuntimeError:
+        return None
 
 
 def worth_keeping(total_bytes: int) -> bool:
@@ -79,7 +85,10 @@ def digest_of(path: Path) -> bytes:
 
 def load(key: str, shape_count: int) -> tuple[ObjFile, Float32] | None:
     """The neutral and deltas (K, V, 3) kept under `key`, or None."""
-    path = cache_folder() / f"{key}.npz"
+    folder = cache_folder()
+    if folder is None:
+        return None
+    path = folder / f"{key}.npz"
     try:
         if not path.is_file():
             return None
@@ -97,8 +106,10 @@ def store(key: str, neutral: ObjFile, deltas: Float32) -> None:
     arrays = _packed(neutral, deltas)
     if sum(array.nbytes for array in arrays.values()) > _ENTRY_BYTES:
         return
+    folder = cache_folder()
+    if folder is None:
+        return
     try:
-        folder = cache_folder()
         with replacing(folder / f"{key}.npz") as temporary, temporary.open("wb") as file:
             np.savez(file, allow_pickle=False, **arrays)
         _drop_oldest(folder)

@@ -95,7 +95,10 @@ def described(folder: Path) -> DescribedFace:
     neutral = _file(folder, table, "neutral", _NEUTRAL_FILE)
     names = [entry.text("name") for entry in entries]
     shapes = [
-        (Shape(name, entry.text("label", plain_label(name))), _file(folder, entry, "file", None))
+        (
+            Shape(name, entry.text("label", "").strip() or plain_label(name)),
+            _file(folder, entry, "file", None),
+        )
         for name, entry in zip(names, entries, strict=True)
     ]
     listed = {path.resolve() for path in (neutral, *(path for _, path in shapes))}

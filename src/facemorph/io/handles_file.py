@@ -7,7 +7,6 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +15,12 @@ from facemorph.deform.handles import Handle, HandleSet
 from facemorph.deform.rbf import Kernel, checked_kernel
 from facemorph.errors import FaceFolderError, OptionError
 from facemorph.io.atomic import replacing
+from facemorph.io.limits import read_bytes
 
 FORMAT = "facemorph handles 1"
 _LARGEST_FILE = 4_000_000
 MOST_HANDLES = 2000
+_FARTHEST = 1e12
 
 
 def write_handles(path: str | Path, handles: HandleSet, rig: Rig) -> None:
@@ -63,11 +64,7 @@ def read_handles(path: str | Path, rig: Rig) -> HandleSet:
 
 def _content(path: Path) -> dict[str, Any]:
     try:
-        if path.stat().st_size > _LARGEST_FILE:
-            raise FaceFolderError(f"{path}: a file of points has at most {_LARGEST_FILE:,} bytes.")
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise FaceFolderError(f"{path} cannot be read: {error.strerror or error}.") from error
+        content = json.loads(read_bytes(path, _LARGEST_FILE))
     except (ValueError, RecursionError) as error:
         raise FaceFolderError(f"{path} is no file of points: it is not JSON.") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
@@ -97,7 +94,7 @@ def _kernel(path: Path, name: str) -> Kernel:
 
 
 def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) <= _FARTHEST
 
 
 def _is_length(value: object) -> bool:

@@ -7,6 +7,7 @@ import warnings
 import zlib
 from pathlib import Path
 
+from facemorph.core.picture import PICTURE_FORMATS
 from facemorph.io.limits import TEXTURE_BYTES, plain_size, shortened
 
 _DECODED_PIXELS = 8192 * 8192
@@ -25,7 +26,7 @@ def picture_problem(path: Path) -> str | None:
             return "is an empty file"
         if size > TEXTURE_BYTES:
             return f"is larger than {plain_size(TEXTURE_BYTES)}, the most that is read"
-        with warnings.catch_warnings(), Image.open(path) as opened:
+        with warnings.catch_warnings(), Image.open(path, formats=PICTURE_FORMATS) as opened:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
             if opened.width * opened.height > _DECODED_PIXELS:
                 opened.verify()

@@ -164,6 +164,60 @@ def test_no_screen_is_told_in_one_line(environment: dict[str, str], display: str
     assert result.stderr == ""
 
 
+MINIMIZED_WINDOW = """
+import glfw
+import facemorph.ui.run as program
+frames, waits, drawn = [0], [0], []
+frame, wait = program.window.Window.frame, program.window.Window.wait
+
+def counted_frame(screen, build, app):
+    frames[0] += 1
+    if frames[0] == 5:
+        glfw.iconify_window(screen._handle)
+    app.quit = frames[0] == 8
+    frame(screen, build, app)
+
+def counted_wait(screen, secs):
+    if screen.minimized:
+        drawn.append(frames[0])
+        if len(drawn) == 6:
+            glfw.restore_window(screen._handle)
+    return wait(screen, secs)
+
+program.window.Window.frame, program.window.Window.wait = counted_frame, counted_wait
+program.run_window(SOURCE, {}, platform="null")
+print(drawn, frames[0])
+"""
+
+
+def test_nothing_is_drawn_while_the_window_is_minimised(
+    opengl: None, face: Path, environment: dict[str, str]
+) -> None:
+    result = run_python(MINIMIZED_WINDOW.replace("SOURCE", repr(str(face))), environment)
+    assert result.stdout.strip() == "[5, 5, 5, 5, 5, 5] 8", result.stderr
+
+
+@pytest.mark.parametrize(
+    ("platform", "scale", "room", "size"),
+    [
+        ("linux", 1.5, (1920, 1080), (1280, 720)),
+        ("linux", 1.0, (1920, 1080), (1280, 800)),
+        ("win32", 2.0, (1920, 1040), (960, 520)),
+        ("darwin", 2.0, (1440, 775), (1280, 775)),
+    ],
+)
+def test_the_window_opens_within_a_scaled_screen(
+    monkeypatch, platform: str, scale: float, room: tuple[int, int], size: tuple[int, int]
+) -> None:
+    from facemorph.ui import window
+
+    monkeypatch.setattr(window.sys, "platform", platform)
+    monkeypatch.setattr(window.glfw, "get_primary_monitor", object)
+    monkeypatch.setattr(window.glfw, "get_monitor_workarea", lambda _: (0, 0, *room))
+    monkeypatch.setattr(window.glfw, "get_monitor_content_scale", lambda _: (scale, scale))
+    assert window._fitting((1280, 800)) == size
+
+
 @pytest.fixture
 def x_display(environment: dict[str, str]) -> Iterator[str]:
     """An X server of our own on a free number."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
+import sys
 import threading
 import time
 from dataclasses import replace
@@ -22,9 +24,10 @@ from facemorph.ui.jobs import Jobs
 from facemorph.ui.messages import NEWS_SECS, Messages
 from facemorph.ui.paths import completed, entries, expanded
 from facemorph.ui.playback import Playback
-from facemorph.ui.settings import Settings, load_settings, save_settings
+from facemorph.ui.settings import Settings, config_folder, load_settings, save_settings
 from facemorph.ui.state import App, Face, Viewport, first_pose
 from facemorph.ui.theme import DARK, LIGHT, contrast
+from facemorph.ui.thumbnails import cache_folder
 from facemorph.ui.words import state_words
 
 
@@ -194,6 +197,11 @@ def test_a_broken_settings_file_is_kept_aside_and_the_start_goes_on(tmp_path: Pa
     [
         ("window_size", [1, 1]),
         ("window_size", [1e9, 3]),
+        ("window_size", [1280.5, 800.25]),
+        ("window_size", [True, 800]),
+        ("left_width", 10**400),
+        ("left_width", -(10**400)),
+        ("right_width", float("inf")),
         ("theme", "pink"),
         ("recent", [[]]),
         ("recent", [["a"], [3]]),
@@ -366,6 +374,24 @@ def test_a_typed_path_is_completed_as_far_as_all_agree(tmp_path: Path) -> None:
 def test_home_and_quotes_in_a_typed_path() -> None:
     assert expanded("~/x") == Path.home() / "x"
     assert expanded("'/a/../b'") == Path("/b")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there a home is not looked up among the users")
+def test_a_user_without_a_home_has_defaults_and_no_cache(tmp_path: Path, monkeypatch) -> None:
+    for name in (*(name for name in os.environ if name.startswith("XDG_")), "HOME"):
+        monkeypatch.delenv(name, raising=False)
+    for name in ("FACEMORPH_CONFIG_DIR", "FACEMORPH_CACHE_DIR"):
+        monkeypatch.delenv(name, raising=False)
+
+    def nobody(number: int) -> None:
+        raise KeyError(number)
+
+    monkeypatch.setattr("pwd.getpwuid", nobody)
+    monkeypatch.chdir(tmp_path)
+    assert config_folder() is None
+    assert cache_folder() is None
+    assert expanded("~/x") == tmp_path / "x"
+    assert expanded("/a/x") == Path("/a/x")
 
 
 def test_a_viewports_places() -> None:

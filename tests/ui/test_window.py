@@ -23,8 +23,8 @@ from tests.ui.harness import Offscreen, ball_rig
 FILE, EXPRESSION, VIEW = (27, 14), (134, 14), (204, 14)
 FACE = (450, 380)
 SLIDER_START, SLIDER_END = (372, 775), (857, 775)
-HAPPY_ROW = (1072, 157)
-SEARCH = (1050, 88)
+HAPPY_ROW = (1078, 229)
+SEARCH = (1050, 160)
 
 
 def menu_entry(place: int) -> tuple[int, int]:
@@ -277,7 +277,7 @@ def test_space_plays_and_pauses(window: Offscreen) -> None:
 def test_at_rest_nothing_wants_a_frame_and_the_face_is_not_drawn_again(window: Offscreen) -> None:
     window.frames(5)
     drawn = window.session.renderer.stats.frames
-    window.move(1100, 600)
+    window.move(1230, 84)
     window.frames(5)
     assert window.session.wants_frame_in() is None
     assert window.session.renderer.stats.frames == drawn
@@ -379,6 +379,48 @@ def test_saving_over_a_file_asks_first(window: Offscreen, tmp_path: Path) -> Non
     assert (tmp_path / "Ball.png").read_bytes() == b"mine"
 
 
+class AnsweredDialog:
+    """The desktop's dialog when the user has chosen."""
+
+    def __init__(self, *paths: Path) -> None:
+        self.paths = paths
+
+    def answer(self) -> list[str]:
+        return [str(path) for path in self.paths]
+
+    def close(self) -> None:
+        pass
+
+
+def test_a_name_that_gets_its_suffix_here_overwrites_nothing_unasked(
+    window: Offscreen, tmp_path: Path
+) -> None:
+    chooser, there = window.app.chooser, tmp_path / "mine.png"
+    there.write_bytes(b"mine")
+    chooser.purpose, chooser.dialog = "picture", AnsweredDialog(tmp_path / "mine")
+    window.frames(4)
+    assert (chooser.purpose, chooser.replacing) == ("picture", str(there))
+    assert there.read_bytes() == b"mine"
+    window.key("enter")
+    window.until(lambda: not window.app.jobs.running and not window.app.picture_path)
+    assert there.read_bytes() != b"mine"
+    # The desktop has asked about this name itself, and about one that is new there is nothing to ask.
+    for name in ("mine.png", "new"):
+        chooser.purpose, chooser.dialog = "picture", AnsweredDialog(tmp_path / name)
+        window.frames(3)
+        assert chooser.purpose == ""
+    window.until(lambda: (tmp_path / "new.png").exists() and not window.app.jobs.running)
+
+
+def test_an_entry_clicked_in_the_chooser_goes_into_its_path(window: Offscreen, obj_face: Path) -> None:
+    window.app.settings.last_folder = str(obj_face)
+    window.key("O", ctrl=True)
+    window.frames(4)
+    window.click(500, 302)
+    window.frames(4)
+    assert window.app.chooser.path == str(obj_face / "happy.obj")
+
+
 def test_the_chooser_opens_what_is_typed(window: Offscreen, obj_face: Path) -> None:
     window.app.settings.last_folder = str(obj_face)
     window.key("O", ctrl=True)
@@ -428,6 +470,35 @@ def test_two_hundred_long_names_fit(opengl: None) -> None:
         window.click(*EXPRESSION)
         window.frames(2)
         assert window.app.expressions[-1].name == names[-1]
+
+
+def test_expressions_without_a_title_or_with_the_same_can_be_chosen(opengl: None) -> None:
+    ball = ball_rig(("happy", "sad", "angry"), (), (), rings=4)
+    labels = ("", "Twin", "Twin")
+    shapes = tuple(replace(shape, label=label) for shape, label in zip(ball.shapes, labels, strict=True))
+    with Offscreen(Rig(ball.neutral, shapes, ball.deltas, ball.info)) as window:
+        for place, name in enumerate(("happy", "sad", "angry"), start=1):
+            choose(window, EXPRESSION, place)
+            assert window.app.pose.target == {name: 1.0}
+        titles = [c.title for c in commands(window.app) if c.menu == "Expression"]
+        assert titles[1] == "happy"
+
+
+def test_escape_dismisses_the_newest_message_where_nothing_else_takes_it(window: Offscreen) -> None:
+    messages = window.app.messages
+    for text in ("first", "second"):
+        messages.fail(text)
+    window.click(*FILE)
+    window.key("escape")
+    window.key("F1")
+    window.key("escape")
+    window.click(*SEARCH)
+    window.key("escape")
+    assert [message.text for message in messages.shown] == ["first", "second"]
+    window.key("escape")
+    assert [message.text for message in messages.shown] == ["first"]
+    window.key("escape")
+    assert messages.shown == []
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (640, 420), (300, 200), (3000, 500)])

@@ -191,7 +191,7 @@ def show_palette(app: App) -> None:
 
 def ask_for(app: App, purpose: str) -> None:
     """Ask for a file: purpose is "open", "picture" or "mesh"."""
-    app.chooser.purpose = purpose
+    app.chooser.purpose, app.chooser.path = purpose, ""
     app.chooser.fresh = True
 
 

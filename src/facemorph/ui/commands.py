@@ -203,7 +203,7 @@ def _expressions(app: App) -> tuple[Command, ...]:
     names = [(NEUTRAL, NEUTRAL_LABEL), *((shape.name, shape.label) for shape in app.expressions)]
     return tuple(
         Command(
-            label,
+            label.strip() or name,
             partial(actions.choose_expression, name=name),
             "Expression",
             _keys(str(place)) if place <= 7 else (),

@@ -13,11 +13,16 @@ from facemorph.ui.state import App
 
 def draw_ui(app: App) -> None:
     """Draw everything but the face and take in mouse and keys; between `imgui.new_frame` and `render`."""
+    # Asked before the parts, each of which may use the key to shut itself.
+    free = not (imgui.is_popup_open("", imgui.PopupFlags_.any_popup) or imgui.get_io().want_text_input)
     layout = laid_out(app)
+    app.methods.hovered = {}
     run_hotkeys(app)
     for part in parts():
         part(app, layout)
     viewport_input.handle(app)
+    if free and app.messages.shown and imgui.is_key_pressed(imgui.Key.escape, False):
+        app.messages.close(app.messages.shown[-1])
     _escape()
 
 

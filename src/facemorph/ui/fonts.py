@@ -17,6 +17,7 @@ from facemorph.ui.theme import FONT_PIXELS
 
 PLAY, PAUSE, LOOP, SEARCH = "\uf04b", "\uf04c", "\uf363", "\uf002"
 CLOSE, COPY, RESET, ALERT = "\uf00d", "\uf0c5", "\uf2ea", "\uf06a"
+PASTE, RECORD, STOP = "\uf0ea", "\uf111", "\uf04d"
 FOLDER, FILE, UP = "\uf07b", "\uf15b", "\uf062"
 
 _SYSTEM_FONTS = (

@@ -18,12 +18,19 @@ class Entry:
     is_folder: bool
 
 
+def home() -> Path:
+    """The user's home, or the present folder for a user without one."""
+    try:
+        return Path.home()
+    except RuntimeError:
+        return Path.cwd()
+
+
 def expanded(text: str) -> Path:
     """A typed path with `~` and quotes resolved, absolute."""
     words = text.strip().strip("\"'")
-    home = str(Path.home())
     # Not `resolve`: a link keeps the name that was typed.
-    return Path(os.path.normpath(Path.cwd() / (home + words[1:] if words[:1] == "~" else words)))
+    return Path(os.path.normpath(Path.cwd() / (f"{home()}{words[1:]}" if words[:1] == "~" else words)))
 
 
 def folder_of(text: str) -> Path:

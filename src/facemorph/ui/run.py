@@ -15,7 +15,7 @@ from facemorph.resources import builtin_faces
 from facemorph.ui import actions, dialogs, window
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.session import Session
-from facemorph.ui.settings import config_folder, load_settings, save_settings
+from facemorph.ui.settings import Settings, config_folder, load_settings, save_settings
 from facemorph.ui.state import App, Face, first_pose
 from facemorph.ui.thumbnails import Thumbnails
 
@@ -27,7 +27,7 @@ def run_window(
 ) -> int:
     """Open the window, run its loop (for `frames` frames in tests), keep the settings; the exit status."""
     folder = config_folder()
-    settings, problem = load_settings(folder)
+    settings, problem = load_settings(folder) if folder else (Settings(), "")
     app = App(settings=settings, jobs=Jobs(), builtins=tuple(builtin_faces()))
     if problem:
         app.messages.fail(problem)
@@ -100,6 +100,12 @@ class FirstFace:
 def _loop(app: App, session: Session, screen: window.Window, frames: int | None) -> None:
     awake, count, title, visible = window.Awake(), 0, "", False
     while not (app.quit or screen.wants_to_close()) and (frames is None or count < frames):
+        if screen.minimized:
+            # Nobody sees a frame; work that ends in the meantime may still end the program.
+            screen.wait(None)
+            app.jobs.finish()
+            awake.happened()
+            continue
         screen.frame(session.frame, app)
         count += 1
         if not visible and (app.face is not None or app.jobs.shown() or not app.jobs.running):
@@ -145,10 +151,12 @@ def _size(size: list[int]) -> tuple[int, int]:
     return size[0], size[1]
 
 
-def _remember(app: App, screen: window.Window, folder: Path) -> None:
+def _remember(app: App, screen: window.Window, folder: Path | None) -> None:
     app.settings.maximized = screen.maximized
-    if not screen.maximized:
+    if not (screen.maximized or screen.minimized):
         app.settings.window_size = list(screen.size)
+    if folder is None:
+        return
     # The window is going: there is nobody left to tell, and the next start takes the defaults.
     with contextlib.suppress(FacemorphError):
         save_settings(folder, app.settings)

@@ -7,7 +7,6 @@ kept aside under another name, and the defaults are taken.
 from __future__ import annotations
 
 import json
-import math
 import os
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
@@ -31,6 +30,7 @@ class Settings:
     right_open: bool = True
     left_width: float = 236.0
     right_width: float = 376.0
+    right_page: str = "Shapes"
     shut_sections: list[str] = field(default_factory=list)
     wide_weights: bool = False
     loop: bool = False
@@ -56,9 +56,15 @@ def _text_list(value: Any) -> bool:
 def _number(low: float, high: float) -> Callable[[Any], bool]:
     def fits(value: Any) -> bool:
         plain = isinstance(value, int | float) and not isinstance(value, bool)
-        return plain and math.isfinite(value) and low <= value <= high
+        # Bounds first and alone: they hold off nan, infinity, and integers too large for a float.
+        return plain and low <= value <= high
 
     return fits
+
+
+def _is_size(value: Any) -> bool:
+    pair = isinstance(value, list) and len(value) == 2
+    return pair and all(isinstance(side, int) and _number(200, 16384)(side) for side in value)
 
 
 def _flag(value: Any) -> bool:
@@ -66,7 +72,7 @@ def _flag(value: Any) -> bool:
 
 
 _FITS: dict[str, Callable[[Any], bool]] = {
-    "window_size": lambda v: isinstance(v, list) and len(v) == 2 and all(_number(200, 16384)(n) for n in v),
+    "window_size": _is_size,
     "maximized": _flag,
     "theme": lambda v: v in THEMES,
     "recent": lambda v: isinstance(v, list) and len(v) <= 100 and all(_text_list(e) and e for e in v),
@@ -74,6 +80,7 @@ _FITS: dict[str, Callable[[Any], bool]] = {
     "right_open": _flag,
     "left_width": _number(120, 2000),
     "right_width": _number(120, 2000),
+    "right_page": lambda v: isinstance(v, str),
     "shut_sections": _text_list,
     "wide_weights": _flag,
     "loop": _flag,
@@ -84,14 +91,18 @@ _FITS: dict[str, Callable[[Any], bool]] = {
 }
 
 
-def config_folder() -> Path:
-    """Where the settings are kept."""
+def config_folder() -> Path | None:
+    """Where the settings are kept; None for a user without a home, who has the defaults each time."""
     override = os.environ.get("FACEMORPH_CONFIG_DIR")
     if override:
         return Path(override)
     import platformdirs
 
-    return platformdirs.user_config_path("facemorph", appauthor=False)
+    try:
+        folder = platformdirs.user_config_path("facemorph", appauthor=False)
+    except RuntimeError:
+        return None
+    return folder if folder.is_absolute() else None
 
 
 def load_settings(folder: Path) -> tuple[Settings, str]:

@@ -26,6 +26,7 @@ from facemorph.ui.lab import Lab
 from facemorph.ui.messages import Messages
 from facemorph.ui.methods import Methods
 from facemorph.ui.on_face import OnFace
+from facemorph.ui.pages import Pages
 from facemorph.ui.playback import Playback
 from facemorph.ui.settings import Settings
 
@@ -144,6 +145,7 @@ class App:
     second_legend: Legend | None = None  # of the second view's, where the face is seen twice
     viewport: Viewport = field(default_factory=Viewport)
 
+    pages: Pages = field(default_factory=Pages)
     shapes: ShapesPanel = field(default_factory=ShapesPanel)
     palette: Palette = field(default_factory=Palette)
     chooser: Chooser = field(default_factory=Chooser)

@@ -76,7 +76,7 @@ class Thumbnails:
             return
 
         def work(progress: Progress) -> UInt8 | Rig:
-            kept = _kept(path / f"{_key(folder)}.npy")
+            kept = _kept(path / f"{_key(folder)}.npy") if path is not None else None
             return kept if kept is not None else _neutral_only(name)
 
         def done(result: UInt8 | Rig) -> None:
@@ -94,7 +94,7 @@ class Thumbnails:
         renderer = Renderer(self._ctx)
         try:
             renderer.load(rig)
-            camera = Camera.framing(_head(rig), "10,2", SIZE[0] / SIZE[1])
+            camera = Camera.framing(rig.neutral.bounds, "10,2", SIZE[0] / SIZE[1])
             renderer.draw(Pose(), camera, Look(background=_BACKGROUND), (SIZE[0] * 2, SIZE[1] * 2))
             large = renderer.read().reshape(SIZE[1], 2, SIZE[0], 2, 4).astype(np.float32)
         except FacemorphError:
@@ -104,7 +104,7 @@ class Thumbnails:
         pixels = np.ascontiguousarray(large.mean(axis=(1, 3)).round().astype(np.uint8))
         self._pixels.append((name, pixels))
         folder = builtin_faces().get(name)
-        if folder is not None:
+        if folder is not None and self._folder is not None:
             _keep(self._folder / f"{_key(folder)}.npy", pixels)
 
     def _show(self, app: App, name: str, pixels: UInt8) -> None:
@@ -121,14 +121,21 @@ class Thumbnails:
         self._textures.clear()
 
 
-def cache_folder() -> Path:
-    """Where pictures are kept between starts; FACEMORPH_CACHE_DIR names another place."""
+def cache_folder() -> Path | None:
+    """Where pictures are kept between starts, None for a user without a home.
+
+    FACEMORPH_CACHE_DIR names another place.
+    """
     override = os.environ.get("FACEMORPH_CACHE_DIR")
     if override:
         return Path(override) / "thumbnails"
     import platformdirs
 
-    return platformdirs.user_cache_path("facemorph", appauthor=False) / "thumbnails"
+    try:
+        folder = platformdirs.user_cache_path("facemorph", appauthor=False) / "thumbnails"
+    except RuntimeError:
+        return None
+    return folder if folder.is_absolute() else None
 
 
 def _neutral_only(name: str) -> Rig:
@@ -136,12 +143,6 @@ def _neutral_only(name: str) -> Rig:
 
     rig = load_rig(name, progress=silent)
     return Rig(rig.neutral, (), np.zeros((0, rig.neutral.vertex_count, 3), np.float32), rig.info)
-
-
-def _head(rig: Rig) -> np.ndarray[tuple[int, ...], np.dtype[np.float32]]:
-    """The box to frame: the upper part of the mesh, which may go down to the shoulders."""
-    low, high = rig.neutral.bounds.copy()
-    return np.stack([low, high])
 
 
 def _key(folder: Path) -> str:

@@ -216,3 +216,21 @@ def chip(app: App, text: str, tip: str, *, lit: bool = False) -> bool:
 def chip_width(text: str) -> float:
     """How wide `chip` draws a text."""
     return float(imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x)
+
+
+def tab_chips(app: App, choices: tuple[tuple[str, str], ...], chosen: str) -> str:
+    """A few words side by side of which one holds, each with its tooltip; gives the one that does."""
+    c, gap = colours(app), 2 * unit()
+    room = imgui.get_content_region_avail().x
+    width = (room - gap * (len(choices) - 1)) / len(choices)
+    for place, (word, tip) in enumerate(choices):
+        if place:
+            imgui.same_line(0, gap)
+        lit = word == chosen
+        imgui.push_style_color(imgui.Col_.button, c.field_hovered if lit else faded(c.field, 0.4))
+        imgui.push_style_color(imgui.Col_.text, c.text if lit else c.dim)
+        if imgui.button(f"{word}##choice", ImVec2(width, 0)):
+            chosen = word
+        imgui.pop_style_color(2)
+        tooltip(tip)
+    return chosen

@@ -26,6 +26,7 @@ TITLE = "facemorph"
 # ImGui settles within a few frames (a menu's size is known after one); tooltips wait for a while.
 _SETTLING_FRAMES = 3
 _TOOLTIP_SECS = 0.8
+_SMALLEST = (640, 420)
 
 
 class Window:
@@ -214,17 +215,32 @@ def _new_window(size: tuple[int, int], maximized: bool, *, null: bool) -> Any:
         )
     # The null platform takes "no upper limit" for a limit.
     if not null:
-        glfw.set_window_size_limits(handle, 640, 420, glfw.DONT_CARE, glfw.DONT_CARE)
+        scale = _scale_of_sizes()
+        width, height = (round(side * scale) for side in _fitting(_SMALLEST))
+        glfw.set_window_size_limits(handle, width, height, glfw.DONT_CARE, glfw.DONT_CARE)
     return handle
 
 
 def _fitting(size: tuple[int, int]) -> tuple[int, int]:
-    """A remembered size, no larger than the screen is now."""
+    """A remembered size in unscaled pixels, no larger than the screen is now."""
     monitor = glfw.get_primary_monitor()
     if not monitor:
         return size
-    _, _, width, height = glfw.get_monitor_workarea(monitor)
-    return (min(size[0], width) if width else size[0], min(size[1], height) if height else size[1])
+    _, _, *room = glfw.get_monitor_workarea(monitor)
+    # GLFW gives macOS's screens in unscaled units; elsewhere in pixels, which SCALE_TO_MONITOR has in mind.
+    scale = 1.0 if sys.platform == "darwin" else max(glfw.get_monitor_content_scale(monitor)[0], 0.5)
+    width, height = (
+        min(side, int(most / scale)) if most else side for side, most in zip(size, room, strict=True)
+    )
+    return width, height
+
+
+def _scale_of_sizes() -> float:
+    """How many of GLFW's units of a window's size an unscaled pixel takes, on the screen it opens on."""
+    monitor = glfw.get_primary_monitor()
+    if not monitor or glfw.get_platform() not in (glfw.PLATFORM_X11, glfw.PLATFORM_WIN32):
+        return 1.0
+    return max(glfw.get_monitor_content_scale(monitor)[0], 0.5)
 
 
 def _reason() -> str:

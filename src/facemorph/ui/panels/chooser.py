@@ -11,7 +11,7 @@ from imgui_bundle import ImVec2, imgui
 from facemorph.ui import actions, dialogs, fonts, handles
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
-from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of
+from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
@@ -40,7 +40,8 @@ def draw(app: App, layout: Layout) -> None:
     state = app.chooser
     if not state.purpose:
         return
-    if state.fresh:
+    # With a path, "fresh" only wants the keyboard for its field.
+    if state.fresh and not state.path:
         _begin(app)
     if state.dialog is not None:
         _poll(app, state.dialog)
@@ -63,7 +64,7 @@ def _begin(app: App) -> None:
 def _start(app: App) -> Path | str:
     folder = Path(app.settings.last_folder)
     if not app.settings.last_folder or not folder.is_dir():
-        folder = Path.home()
+        folder = home()
     if app.chooser.purpose not in _SAVING:
         return f"{folder}{os.sep}"
     suffix = _SUFFIXES[app.chooser.purpose][0]
@@ -76,8 +77,16 @@ def _poll(app: App, dialog: dialogs.NativeDialog) -> None:
     answer = dialog.answer()
     if answer is None:
         return
-    app.chooser.dialog = None
-    purpose, app.chooser.purpose = app.chooser.purpose, ""
+    state = app.chooser
+    state.dialog = None
+    if answer and state.purpose in _SAVING:
+        written = _written(state.purpose, Path(answer[0]))
+        if written != Path(answer[0]) and written.exists():
+            # The desktop asked about the name without its suffix only.
+            state.path = state.replacing = str(written)
+            state.fresh = True
+            return
+    purpose, state.purpose = state.purpose, ""
     if answer:
         _take(app, purpose, [Path(part) for part in answer])
 
@@ -123,14 +132,19 @@ def _usable(purpose: str, goal: Path) -> bool:
 def _chosen(app: App, goal: Path) -> None:
     state = app.chooser
     if state.purpose in _SAVING and state.replacing != str(goal):
-        suffix = _SUFFIXES[state.purpose][0]
-        written = goal if goal.suffix.lower() == suffix else goal.with_name(goal.name + suffix)
+        written = _written(state.purpose, goal)
         if written.exists():
             state.path = state.replacing = str(written)
             return
     purpose, state.purpose = state.purpose, ""
     imgui.close_current_popup()
     _take(app, purpose, [goal])
+
+
+def _written(purpose: str, goal: Path) -> Path:
+    """The file that a chosen name stands for: the suffix is added where it is missing."""
+    suffix = _SUFFIXES[purpose][0]
+    return goal if goal.suffix.lower() == suffix else goal.with_name(goal.name + suffix)
 
 
 def _take(app: App, purpose: str, paths: list[Path]) -> None:

@@ -31,14 +31,17 @@ def _menu(app: App, menu: str, table: tuple[Command, ...]) -> None:
     entries = [command for command in table if command.menu == menu]
     group = entries[0].group if entries else 0
     submenus = _SUBMENUS.get(menu, ())
-    for command in entries:
+    for place, command in enumerate(entries):
         if submenus and command.group >= _SUBMENU_GROUP:
             _submenus(app, menu, table)
             submenus = ()
         if command.group != group:
             imgui.separator()
             group = command.group
+        # Names of shapes come from files: they may be alike.
+        imgui.push_id(place)
         _entry(app, command)
+        imgui.pop_id()
     if not entries:
         imgui.text_disabled("Open a face first")
 

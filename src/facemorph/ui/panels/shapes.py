@@ -8,29 +8,19 @@ from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.rig import Rig, Shape, plain_label
 from facemorph.ui import actions, fonts
+from facemorph.ui.panels.rows import Head, Row, head, quiet_words, weight_row
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
-from facemorph.ui.widgets import (
-    colours,
-    cut,
-    icon_button,
-    right_edge,
-    row_label,
-    slim_slider,
-    switch,
-    tooltip,
-    typed_number,
-    unit,
-)
+from facemorph.ui.widgets import colours, cut, icon_button, tooltip, unit
 
-SET_TITLES = {"expression": "Expressions", "facs": "FACS units", "arkit": "ARKit shapes"}
+SET_TITLES = {"expression": "Expressions", "facs": "FACS units", "arkit": "ARKit shapes", "made": "Made here"}
 SET_TIPS = {
     "expression": "Whole expressions, added on top of what the slider gives",
     "facs": "Action units of the Facial Action Coding System: single movements that add up to expressions",
     "arkit": "The 52 shapes that face capture on a phone gives",
+    "made": "Shapes kept from the page Handles",
 }
 ACTIVE = "active"
-WIDE_RANGE, USUAL_RANGE = (-1.0, 2.0), (0.0, 1.0)
 
 
 @dataclass(frozen=True)
@@ -52,12 +42,7 @@ def draw(app: App) -> None:
     _head(app)
     rig = app.rig
     if rig is None or not rig.shapes:
-        imgui.spacing()
-        imgui.push_text_wrap_pos(0.0)
-        imgui.text_disabled(
-            "No face is open." if rig is None else "This face has no shapes: nothing to morph to."
-        )
-        imgui.pop_text_wrap_pos()
+        quiet_words("No face is open." if rig is None else "This face has no shapes: nothing to morph to.")
         return
     _search(app)
     imgui.begin_child("shapes", ImVec2(0, 0))
@@ -67,35 +52,21 @@ def draw(app: App) -> None:
 
 
 def _head(app: App) -> None:
-    scale = unit()
-    imgui.align_text_to_frame_padding()
-    imgui.text("Shapes")
-    imgui.begin_disabled(app.rig is None or not app.rig.shapes)
-    right = right_edge()
-    imgui.same_line()
-    on = switch(app, "shapes on", app.shapes_on)
-    tooltip("Take these shapes out of the face, and put them back")
-    if on != app.shapes_on:
+    line = Head(
+        "Shapes",
+        app.shapes_on,
+        app.rig is not None and bool(app.rig.shapes),
+        bool(app.pose.weights),
+        "Take these shapes out of the face, and put them back",
+        "Takes out every shape added here; the slider along the bottom stays",
+        "Reset all",
+        wide=True,
+    )
+    toggled, cleared = head(app, line)
+    if toggled:
         actions.toggle_shapes(app)
-    reset = "Reset all"
-    wide = "±"
-    width = imgui.calc_text_size(reset).x + 2 * imgui.get_style().frame_padding.x
-    imgui.same_line(right - width - imgui.get_frame_height() - 6 * scale)
-    if icon_button(app, wide, "wide", _WIDE_TIP, lit=app.settings.wide_weights):
-        actions.toggle_wide(app)
-    imgui.same_line(right - width)
-    imgui.begin_disabled(not app.pose.weights)
-    if imgui.button(reset):
+    if cleared:
         actions.reset_weights(app)
-    tooltip("Takes out every shape added here; the slider along the bottom stays")
-    imgui.end_disabled()
-    imgui.end_disabled()
-
-
-_WIDE_TIP = (
-    "Let weights go below 0 and above 1: exaggerates a shape or runs it backwards; "
-    "the face may fold through itself"
-)
 
 
 def _search(app: App) -> None:
@@ -203,23 +174,12 @@ def _arrow(paint: imgui.ImDrawList, x: float, y: float, size: float, ink: int, *
 
 
 def _row(app: App, shape: Shape, section: str) -> None:
+    shape_row(app, shape, f"{section}/{shape.name}")
+
+
+def shape_row(app: App, shape: Shape, key: str) -> None:
+    """A shape with the slider for what it adds to the face."""
     weight = app.pose.weights.get(shape.name, 0.0)
-    low, high = WIDE_RANGE if app.settings.wide_weights else USUAL_RANGE
-    low, high = min(low, weight), max(high, weight)
-    room, scale = imgui.get_content_region_avail().x, unit()
-    number = 48 * scale
-    label = max((room - number) * 0.47, 60 * scale)
-    key = f"{section}/{shape.name}"
-    imgui.indent(6 * scale)
-    tip = f"{shape.name}\nDrag, double-click to type, right-click to reset"
-    row_label(app, shape.label, label - 6 * scale, tip, bright=weight != 0.0)
-    if imgui.is_item_clicked(1):
-        actions.set_weight(app, shape.name, 0.0)
-        weight = 0.0
-    imgui.same_line(0, 4 * scale)
-    new = slim_slider(app, key, weight, low, high, room - label - number - 6 * scale)
-    imgui.same_line(0, 0)
-    new = typed_number(app, key, new, low, high, number)
-    imgui.unindent(6 * scale)
+    new = weight_row(app, Row(key, shape.label, weight, shape.name, lights={shape.name: 1.0}))
     if new != weight:
         actions.set_weight(app, shape.name, new)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
+from facemorph.ui import actions
 from facemorph.ui.layout import LEAST_SIDE_WIDTH, Layout
 from facemorph.ui.panels import Tab, left_tabs, right_tabs
+from facemorph.ui.panels.tabs import chosen_tab, tab_bar
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, unit
@@ -45,13 +47,15 @@ def _side(app: App, name: str, x: float, width: float, layout: Layout, tabs: tup
     imgui.begin(name, None, _BEHIND)
     if len(tabs) == 1:
         tabs[0].draw(app)
-    elif imgui.begin_tab_bar("pages"):
-        for tab in tabs:
-            mark = imgui.TabItemFlags_.unsaved_document if tab.moves_face(app) else 0
-            if imgui.begin_tab_item(tab.title, None, mark)[0]:
-                tab.draw(app)
-                imgui.end_tab_item()
-        imgui.end_tab_bar()
+    else:
+        chosen = chosen_tab(tabs, app.settings.right_page)
+        title = tab_bar(app, tabs, chosen.title)
+        if title != chosen.title:
+            actions.show_page(app, title)
+            chosen = chosen_tab(tabs, title)
+        imgui.push_id(chosen.title)
+        chosen.draw(app)
+        imgui.pop_id()
     imgui.end()
 
 

@@ -1,0 +1,14 @@
+"""What the pages of the methods keep for themselves: no part of the face, and of no step of undo."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Pages:
+    """The FACS page: the set shown, the unit whose balance is open, balances of units at rest."""
+
+    set: str = "FACS"
+    unit_open: int = 0
+    balances: dict[int, float] = field(default_factory=dict)

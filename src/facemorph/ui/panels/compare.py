@@ -1,0 +1,162 @@
+"""The Compare page: a vertex's path, speed and acceleration by several methods, and the face seen twice."""
+
+from __future__ import annotations
+
+from imgui_bundle import ImVec2, imgui
+
+from facemorph.core.arrays import Float64
+from facemorph.core.rig import Rig
+from facemorph.ui import actions, comparing
+from facemorph.ui.on_face import OnlyPaints, Split
+from facemorph.ui.on_screen import picked, projected, shown_places, surface_of
+from facemorph.ui.panels.rows import divider, quiet_words
+from facemorph.ui.panels.value_rows import button_row, choice_row, switch_row, unit_words
+from facemorph.ui.plots import Line, plot
+from facemorph.ui.state import App, Viewport
+from facemorph.ui.theme import faded, packed
+from facemorph.ui.widgets import colours, cut, tooltip, unit
+
+_SPLIT_TIP = (
+    "Shows the face twice at the same t, by two methods: linear (2.5), cosine (2.1), RBF (2.13), or without "
+    "a layer; the cameras are one"
+)
+_PATHS_TIP = (
+    "Present is the sum of all methods as it is set now. Linear goes evenly from where that begins to where "
+    "it ends (2.5); cosine the same way, starting and ending gently (2.1). Linear motion starts and stops "
+    "at once: its acceleration is 0 between, and without bound at both ends."
+)
+_HEAT_TIP = "The right face shows by its colours how far it is from the left one"
+
+
+def draw(app: App) -> None:
+    """The page's contents."""
+    imgui.align_text_to_frame_padding()
+    imgui.text("Compare")
+    if app.rig is None:
+        quiet_words("No face is open.")
+        return
+    imgui.begin_child("compare page", ImVec2(0, 0))
+    _split(app, app.rig)
+    divider(app, "A vertex on its way")
+    tooltip(_PATHS_TIP)
+    _paths(app, app.rig)
+    app.on_face.tool = PickTool()
+    imgui.end_child()
+
+
+def _split(app: App, rig: Rig) -> None:
+    page = app.lab.compare
+    split = switch_row(app, "Split view", page.split, _SPLIT_TIP)
+    if split != page.split:
+        page.split = split
+        # The views are half as wide, or twice: the face is put in sight anew, from where one looks.
+        actions.frame_face(app)
+    if not page.split:
+        return
+    choices = comparing.methods_now(app, rig)
+    page.left = page.left if page.left in choices else comparing.LINEAR
+    page.right = page.right if page.right in choices else comparing.COSINE
+    page.left = choice_row(app, "left method", "Left", page.left, choices, "The method on the left")
+    page.right = choice_row(app, "right method", "Right", page.right, choices, "The method on the right")
+    page.heat = switch_row(app, "Difference on the right", page.heat, _HEAT_TIP)
+    comparing.refresh_scenes(app, rig)
+    if page.scenes is None:
+        return
+    left, right = page.scenes
+    app.on_face.scene = left
+    app.on_face.split = Split(right, (choices[page.left], choices[page.right]), page.heat)
+    (most, rms), unit_name = page.difference, unit_words(rig)
+    quiet_words(
+        f"They differ by {most:.3g} {unit_name} at most, rms {rms:.3g} {unit_name}."
+        if most > 1e-6 * rig.neutral.diagonal
+        else "They are the same here. Move the slider: linear and cosine meet at 0, ½ and 1."
+    )
+
+
+def _paths(app: App, rig: Rig) -> None:
+    page = app.lab.compare
+    if page.vertex is None or page.vertex >= rig.neutral.vertex_count:
+        quiet_words("Click on the face to choose a vertex; its path is drawn here.")
+        return
+    comparing.refresh_paths(app, rig, page.vertex)
+    quiet_words(f"Vertex {page.vertex:,} as t runs from 0 to 1: the slider, the regions and the people.")
+    if button_row(app, (("Forget vertex", "No vertex is followed any more", True),)):
+        page.vertex, page.paths, page.asked = None, None, ()
+    made = page.paths
+    if made is None:
+        return
+    height, unit_name = 158 * unit(), unit_words(rig)
+    for name, title, values in (
+        ("distance", f"distance, {unit_name}", made.distance),
+        ("speed", f"speed, {unit_name} per t", made.speed),
+        ("acceleration", f"accel., {unit_name} per t²", made.acceleration),
+    ):
+        # The present way lies on one of the others more often than not: it is drawn wide, under them.
+        lines = tuple(
+            Line(method, made.t, values[method], ground=method == comparing.PRESENT)
+            for method in (comparing.PRESENT, comparing.LINEAR, comparing.COSINE)
+        )
+        last = name == "acceleration"
+        plot(
+            app,
+            name,
+            "t" if last else "",
+            title,
+            lines,
+            height=height,
+            legend=name == "distance",
+            at=app.pose.t,
+        )
+
+
+class PickTool(OnlyPaints):
+    """A click on the face chooses the vertex to follow."""
+
+    def click(self, app: App, x: float, y: float) -> None:
+        """Choose the nearest vertex; beside the face nothing changes."""
+        surface = app.surface(surface_of)
+        hit = picked(app, surface, x, y) if surface is not None else None
+        if hit is not None:
+            app.lab.compare.vertex = hit.vertex
+
+    def paint(self, app: App) -> None:
+        """The chosen vertex, the line between the two views, and what each of them shows."""
+        views = app.views()
+        if app.on_face.split is not None:
+            _line(app, views[1])
+            for words, side in zip(app.on_face.split.words, (-1.0, 1.0), strict=True):
+                _title(app, views[1], words, side)
+        vertex = app.lab.compare.vertex
+        if vertex is None or app.rig is None or vertex >= app.rig.neutral.vertex_count:
+            return
+        scenes = (app.scene(),) if app.on_face.split is None else (app.scene(), app.on_face.split.right)
+        for view, scene in zip(views, scenes, strict=True):
+            _mark(view, projected(app, shown_places(app, [vertex], scene), view)[0][0])
+
+
+def _mark(view: Viewport, place: Float64) -> None:
+    (x, y), paint, scale = place, imgui.get_window_draw_list(), unit()
+    if not view.contains(x, y):
+        return
+    paint.add_circle_filled((x, y), 5 * scale, packed((0.05, 0.06, 0.07, 0.9)))
+    paint.add_circle_filled((x, y), 3.5 * scale, packed((1.0, 0.82, 0.25, 1.0)))
+
+
+def _line(app: App, right: Viewport) -> None:
+    ink = packed(colours(app).line)
+    imgui.get_window_draw_list().add_line(
+        (right.x, right.y), (right.x, right.y + right.height), ink, 2 * unit()
+    )
+
+
+def _title(app: App, right: Viewport, words: str, side: float) -> None:
+    """What a view shows, beside the line between both: left of it where `side` is -1."""
+    c, pad = colours(app), 8 * unit()
+    words = cut(words, right.width * 0.6)
+    size = imgui.calc_text_size(words)
+    x = right.x + 3 * pad if side > 0 else right.x - 3 * pad - size.x
+    y = right.y + 16 * unit()
+    low, high = (x - 1.5 * pad, y - 0.6 * pad), (x + size.x + 1.5 * pad, y + size.y + 0.6 * pad)
+    paint = imgui.get_window_draw_list()
+    paint.add_rect_filled(low, high, packed(faded(c.panel, 0.86)), 6 * unit())
+    paint.add_text((x, y), packed(c.text), words)

@@ -1,0 +1,148 @@
+"""Regions and the brush, driven by fed mouse events."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from facemorph.core.rig import Regions, Rig
+from facemorph.deform.regions import RegionControl
+from facemorph.ui import actions, regions
+from facemorph.ui.state import Face
+from tests.ui.harness import Offscreen, ball_rig
+
+FACE = (450, 380)
+
+
+@pytest.fixture(scope="module")
+def parted() -> Rig:
+    """The ball with an upper and a lower half that meet softly."""
+    ball = ball_rig()
+    upper = np.clip(ball.neutral.positions[:, 1] / 6.0 + 0.5, 0.0, 1.0)
+    weights = np.round(np.stack([upper, 1.0 - upper]) * 255.0)
+    weights[1] = 255.0 - weights[0]
+    return replace(ball, regions=Regions(("brows", "jaw"), weights.astype(np.uint8)))
+
+
+@pytest.fixture
+def page(window: Offscreen, parted: Rig) -> Offscreen:
+    window.app.arriving = Face(parted, ("ball",), builtin=True)
+    window.frames(2)
+    actions.show_page(window.app, "Regions")
+    window.frames(3)
+    return window
+
+
+def find_row(page: Offscreen, name: str) -> tuple[float, float]:
+    """A place on the slider of a region, found by moving over the page until that region lights up."""
+    for y in range(90, 700, 8):
+        page.move(1100, y)
+        page.frames(1)
+        lit = page.app.on_face.glow
+        if lit is not None and lit is regions.light(page.app, name):
+            return 1100.0, y + 12.0
+    raise AssertionError(f"no row for {name}")
+
+
+def test_a_regions_slider_moves_that_region_alone_and_is_one_step(page: Offscreen) -> None:
+    app, rig = page.app, page.app.rig
+    x, y = find_row(page, "brows")
+    page.drag((x, y), (x + 60, y))
+    kept = app.controls.regions["brows"]
+    assert set(app.controls.regions) == {"brows"}
+    assert 0.2 < kept.t < 1.0
+    offsets = app.scene().offsets
+    share = rig.regions.weights[0].astype(np.float32)[:, None] / 255.0
+    delta = rig.deltas[rig.names.index("happy")]
+    assert offsets == pytest.approx(share * delta * kept.t, abs=1e-4)
+    page.key("Z", ctrl=True)
+    assert not app.controls.regions
+
+
+def test_hovering_a_region_lights_it_up(page: Offscreen) -> None:
+    page.move(*find_row(page, "jaw"))
+    page.frames(2)
+    assert page.app.scene().glow == pytest.approx(page.app.rig.regions.weights[1] / 255.0, abs=1e-6)
+    page.move(*FACE)
+    page.frames(2)
+    assert page.app.scene().glow is None
+
+
+def test_all_regions_alike_are_the_global_morph(page: Offscreen, parted: Rig) -> None:
+    # The first row of the page below the brush's switch is that of all.
+    page.drag((1100, find_row(page, "brows")[1] - 78), (1130, find_row(page, "brows")[1] - 78))
+    kept = page.app.controls.regions
+    assert set(kept) == {"brows", "jaw"}
+    t = kept["jaw"].t
+    assert t == kept["brows"].t
+    assert t > 0.1
+    assert page.app.scene().positions(parted) == pytest.approx(parted.positions({"happy": t}), abs=1e-4)
+
+
+def test_a_region_turns_about_the_pivot_that_is_shown(page: Offscreen) -> None:
+    app = page.app
+    app.lab.regions.opened = "brows"
+    before = page.pixels_now().copy()
+    page.frames(3)
+    assert np.abs(page.pixels_now().astype(int) - before)[60:700, 100:880].max() > 60
+    regions.change(app, {"brows": RegionControl(turn_deg=(0.0, 0.0, 20.0))})
+    page.frames(2)
+    assert regions.moves(app.controls.regions["brows"])
+    assert np.abs(app.scene().offsets).max() > 0.5
+    regions.reset_one(app, "brows")
+    assert regions.at_rest(app)
+
+
+def test_a_stroke_paints_both_sides_and_is_one_step_of_undo(page: Offscreen, parted: Rig) -> None:
+    app = page.app
+    app.lab.regions.painting, app.lab.regions.region = True, "jaw"
+    page.frames(3)
+    camera = app.camera
+    page.drag((FACE[0] + 60, 230), (FACE[0] + 110, 240), steps=10)
+    assert app.camera == camera
+    painted = app.painted
+    assert painted is not None
+    gained = painted.weights[1] - parted.regions.weights[1] / 255.0
+    x = parted.neutral.positions[:, 0]
+    assert gained[x > 0.5].max() > 0.3
+    assert gained[x < -0.5].max() == pytest.approx(gained[x > 0.5].max(), abs=0.15)
+    assert painted.weights.sum(axis=0).max() <= 1.0 + 1e-5
+    page.key("Z", ctrl=True)
+    assert app.painted is None
+    page.key("Z", ctrl=True, shift=True)
+    assert app.painted is painted
+
+
+def test_the_brush_takes_away_what_it_is_told_to(page: Offscreen, parted: Rig) -> None:
+    app = page.app
+    app.lab.regions.painting, app.lab.regions.region, app.lab.regions.takes = True, "brows", True
+    page.frames(3)
+    page.drag((FACE[0], 230), (FACE[0] + 40, 230))
+    lost = parted.regions.weights[0] / 255.0 - app.painted.weights[0]
+    assert lost.max() > 0.3
+    assert lost.min() > -1e-3
+
+
+def test_a_face_without_regions_gets_painted_ones(window: Offscreen) -> None:
+    app = window.app
+    actions.show_page(app, "Regions")
+    app.lab.regions.painting = True
+    window.frames(3)
+    assert regions.region_set(app) is None
+    window.drag(FACE, (FACE[0] + 40, FACE[1]))
+    assert app.painted.names == regions.NAMES
+    assert app.painted.weights[0].max() > 0.3
+    regions.change(app, {"brows": RegionControl(target={"happy": 1.0}, shift=(0.0, 1.0, 0.0))})
+    window.frames(2)
+    assert np.abs(app.scene().offsets).max() > 0.2
+
+
+def test_beside_the_face_the_brush_turns_it(page: Offscreen) -> None:
+    page.app.lab.regions.painting = True
+    page.frames(3)
+    azimuth = page.app.camera.azimuth_deg
+    page.drag((60, 700), (160, 700))
+    assert page.app.camera.azimuth_deg != azimuth
+    assert page.app.painted is None

@@ -109,7 +109,7 @@ def weight_row(app: App, row: Row) -> float:
     room = imgui.get_content_region_avail().x - row.spare
     place = imgui.get_cursor_screen_pos()
     number, tag = _NUMBER * scale, _TAG * scale if row.tag else 0.0
-    label = max((room - number - tag) * 0.47, 60 * scale)
+    label = max((room - number - tag) * (0.6 if row.tag else 0.47), 60 * scale)
     imgui.indent(6 * scale)
     if row.tag:
         row_label(app, row.tag, tag, row.tip, bright=False)

@@ -1,0 +1,100 @@
+"""The FACS page: sliders, sides, prototypes and units as text, driven by fed events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from imgui_bundle import imgui
+
+from facemorph.core.facs import Sides
+from facemorph.core.pose import Pose
+from facemorph.deform.sides import SidedUnits
+from facemorph.ui import units
+from tests.ui.harness import Offscreen, ball_rig
+
+FIRST_SLIDER = (1105, 299)
+TAB_FACS = (1091, 54)
+
+
+@pytest.fixture
+def window(opengl: None) -> Iterator[Offscreen]:
+    rig = ball_rig(facs=("AU1", "AU2", "AU4", "AU6", "AU12", "AU15"))
+    with Offscreen(rig) as screen:
+        screen.click(*TAB_FACS)
+        yield screen
+
+
+def test_a_click_on_a_tab_shows_its_page_and_is_remembered(window: Offscreen) -> None:
+    assert window.app.settings.right_page == "FACS"
+
+
+def test_a_units_slider_moves_the_face_and_a_drag_is_one_step_of_undo(window: Offscreen) -> None:
+    window.drag(FIRST_SLIDER, (FIRST_SLIDER[0] + 40, FIRST_SLIDER[1]))
+    ((number, sides),) = window.app.controls.facs.items()
+    assert number == 1
+    assert sides.left == sides.right > 0.1
+    rig = window.app.rig
+    assert rig is not None
+    shown = window.app.scene().positions(rig)
+    np.testing.assert_allclose(shown, rig.positions({"AU1": sides.left}), atol=1e-5)
+    window.key("Z", ctrl=True)
+    assert window.app.controls.facs == {}
+
+
+def test_a_prototype_sets_its_units_in_place_of_others(window: Offscreen) -> None:
+    units.set_unit(window.app, 2, Sides.both(0.5))
+    units.set_prototype(window.app, "happy")
+    assert window.app.controls.facs == {6: Sides.both(1.0), 12: Sides.both(1.0)}
+
+
+def test_what_is_copied_can_be_pasted_again(window: Offscreen) -> None:
+    made = {1: Sides.both(0.4), 12: Sides(1.0, 0.25)}
+    units.set_units(window.app, made)
+    units.copy_units(window.app)
+    assert imgui.get_clipboard_text() == "AU1(0.4)+L12+R12(0.25)"
+    units.reset_units(window.app)
+    units.paste_units(window.app)
+    assert window.app.controls.facs == made
+
+
+def test_text_that_is_no_units_changes_nothing_and_says_why(window: Offscreen) -> None:
+    units.set_unit(window.app, 1, Sides.both(0.5))
+    units.set_text(window.app, "AU1+smile")
+    window.frames(2)
+    assert window.app.controls.facs == {1: Sides.both(0.5)}
+    assert "smile" in window.app.messages.shown[-1].text
+
+
+def test_balance_and_weight_lead_to_the_sides_and_back() -> None:
+    for sides in (Sides(0.8, 0.8), Sides(0.8, 0.2), Sides(0.0, 0.5), Sides(-0.4, -0.1)):
+        weight, balance = units.split(sides)
+        again = units.joined(weight, balance)
+        assert (again.left, again.right) == pytest.approx((sides.left, sides.right))
+
+
+def test_one_side_alone_moves_that_side(window: Offscreen) -> None:
+    units.set_unit(window.app, 12, Sides(1.0, 0.0))
+    rig = window.app.rig
+    assert rig is not None
+    expected = SidedUnits(rig)({12: Sides(1.0, 0.0)}).positions(rig, Pose())
+    np.testing.assert_allclose(window.app.scene().positions(rig), expected - 0, atol=1e-4)
+
+
+def test_switched_off_the_page_moves_nothing_and_keeps_its_units(window: Offscreen) -> None:
+    units.set_unit(window.app, 12, Sides.both(1.0))
+    window.click(980, 124)
+    rig = window.app.rig
+    assert rig is not None
+    np.testing.assert_array_equal(window.app.scene().positions(rig), rig.neutral.positions)
+    assert window.app.controls.facs == {12: Sides.both(1.0)}
+
+
+def test_a_hovered_slider_lights_up_what_it_moves(window: Offscreen) -> None:
+    window.move(*FIRST_SLIDER)
+    window.frames(2)
+    assert window.app.scene().glow is not None
+    window.move(450, 300)
+    window.frames(2)
+    assert window.app.scene().glow is None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -78,18 +79,21 @@ class Run:
 
 def process(arguments: list[str], environment: dict[str, str] | None = None) -> Run:
     """Run a process and measure it; its peak memory comes from the kernel's own account."""
-    start = time.perf_counter()
-    child = subprocess.Popen(
-        arguments,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        env={**os.environ, **(environment or {})},
-    )
-    output = child.stdout.read() if child.stdout else ""
-    _, status, usage = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    seconds = time.perf_counter() - start
+    # Some peers leave files of their own where they run.
+    with tempfile.TemporaryDirectory() as elsewhere:
+        start = time.perf_counter()
+        child = subprocess.Popen(
+            arguments,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            cwd=elsewhere,
+            env={**os.environ, "PYTHONPATH": str(ROOT), **(environment or {})},
+        )
+        output = child.stdout.read() if child.stdout else ""
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        seconds = time.perf_counter() - start
     return Run(seconds, usage.ru_maxrss / 1024, child.returncode, output)
 
 

@@ -98,3 +98,9 @@ def test_a_hovered_slider_lights_up_what_it_moves(window: Offscreen) -> None:
     window.move(450, 300)
     window.frames(2)
     assert window.app.scene().glow is None
+
+
+def test_resetting_the_face_puts_the_methods_to_rest_too(window: Offscreen) -> None:
+    units.set_unit(window.app, 12, Sides.both(1.0))
+    window.run("Reset face")
+    assert window.app.controls.facs == {}

@@ -13,6 +13,7 @@ from facemorph.core.picture import Shading
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
+from facemorph.deform.controls import Controls
 from facemorph.errors import FacemorphError
 from facemorph.gl.heat import Legend
 from facemorph.resources import builtin_faces
@@ -81,9 +82,10 @@ def reset_weights(app: App) -> None:
 
 
 def reset_face(app: App) -> None:
-    """Neutral again: no shapes added, the slider at its start from neutral."""
+    """Neutral again: no shapes added, every method at rest, the slider at its start from neutral."""
     app.playback.stop()
     app.pose = Pose(target=app.pose.target, curve=app.pose.curve)
+    app.controls = Controls()
 
 
 def toggle_shapes(app: App) -> None:

@@ -16,6 +16,7 @@ import numpy as np
 
 from facemorph.core.arrays import Float32, Int32, UInt8
 from facemorph.core.camera import Camera
+from facemorph.core.lengths import displacements
 from facemorph.core.mesh import Labels
 from facemorph.core.normals import vertex_normals
 from facemorph.core.picture import Look, checked_size
@@ -63,11 +64,9 @@ def render(
     Opens an OpenGL context of its own and closes it; for many pictures keep a `facemorph.Offscreen`.
     Raises `GraphicsError`, `OptionError`, `PoseError`, `UnknownNameError`.
     """
-    from facemorph.gl import Offscreen
+    from facemorph.gl import render as drawn
 
-    checked_size(size)
-    with Offscreen() as screen:
-        return screen.render(rig, {} if pose is None else pose, size=size, camera=camera, look=look or Look())
+    return drawn(rig, pose, size=size, camera=camera, look=look)
 
 
 def render_sheet(
@@ -130,8 +129,8 @@ def control_points(rig: Rig, source: str, target: str, points: int | str | Path)
         return read_handles(points, rig)
     if not 4 <= points <= MOST_POINTS:
         raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
-    moved = rig.positions(state_of(target)) - rig.positions(state_of(source))
-    vertices = control_vertices(rig, points, np.linalg.norm(moved, axis=1).astype(np.float32))
+    moved = displacements(rig.positions(state_of(target)), rig.positions(state_of(source)))
+    vertices = control_vertices(rig, points, moved)
     return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices))
 
 

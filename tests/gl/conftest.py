@@ -10,7 +10,7 @@ import pytest
 
 from facemorph.core.rig import Rig
 from facemorph.errors import GraphicsError
-from facemorph.gl import Offscreen, create_context
+from facemorph.gl import Offscreen, Renderer, create_context
 from tests.gl.heads import head_rig
 
 
@@ -55,3 +55,12 @@ def screen(ctx: moderngl.Context) -> Iterator[Offscreen]:
 def folder(tmp_path: Path) -> Path:
     """A fresh folder."""
     return tmp_path
+
+
+@pytest.fixture(params=["cpu", "shader"])
+def renderer(ctx: moderngl.Context, head: Rig, request: pytest.FixtureRequest) -> Iterator[Renderer]:
+    """A renderer of the test head, by each morph path."""
+    made = Renderer(ctx, request.param)
+    made.load(head)
+    yield made
+    made.release()

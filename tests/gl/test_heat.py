@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from facemorph.core.lengths import displacements
 from facemorph.core.picture import Look
 from facemorph.core.rig import Rig
 from facemorph.gl import Offscreen, heat_legend, with_legend
-from facemorph.gl.heat import displacements, heat_end, nice_above, ramp
+from facemorph.gl.heat import heat_end, nice_above, ramp
 
 
 @pytest.mark.parametrize(

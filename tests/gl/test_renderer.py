@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -24,14 +23,6 @@ from tests.gl.heads import head_mesh, many_shapes
 
 SIZE = (160, 120)
 CLEAR = (0.0, 0.0, 0.0, 0.0)
-
-
-@pytest.fixture(params=["cpu", "shader"])
-def renderer(ctx: moderngl.Context, head: Rig, request: pytest.FixtureRequest) -> Iterator[Renderer]:
-    made = Renderer(ctx, request.param)
-    made.load(head)
-    yield made
-    made.release()
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,14 +28,6 @@ from tests.gl.heads import head_mesh, head_rig, partner_rig
 SIZE = (160, 160)
 POSE = Pose.of({"smile": 0.8, "jaw": 0.3})
 CLEAR = Look(background=(0.0, 0.0, 0.0, 0.0))
-
-
-@pytest.fixture(params=["cpu", "shader"])
-def renderer(ctx: moderngl.Context, head: Rig, request: pytest.FixtureRequest) -> Iterator[Renderer]:
-    made = Renderer(ctx, request.param)
-    made.load(head)
-    yield made
-    made.release()
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-from facemorph.cli.values import number, pose_between, pose_from
+from facemorph.cli.values import pose_between, pose_from
 from facemorph.core.facs import Sides, known_unit, parsed_units, units_of
-from facemorph.core.pose import NEUTRAL, parsed_weight
+from facemorph.core.pose import NEUTRAL, parsed_number, parsed_weight
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene
 from facemorph.deform.controls import BoundControls, Controls, EmotionControl, PeopleControl
@@ -88,7 +88,7 @@ def _emotion(text: str | None, rig: Rig) -> EmotionControl:
     x, comma, y = text.partition(",")
     if not comma:
         raise OptionError(f"--emotion takes X,Y, each from -1 to 1; not {text!r}.")
-    control = EmotionControl(number(x, "--emotion"), number(y, "--emotion"))
+    control = EmotionControl(parsed_number(x, "--emotion"), parsed_number(y, "--emotion"))
     if max(abs(control.x), abs(control.y)) > 1.0:
         raise OptionError(f"--emotion takes X,Y, each from -1 to 1; not {text!r}.")
     for name in control.weights():

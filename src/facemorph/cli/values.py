@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -12,7 +11,7 @@ from facemorph.core.morph import checked_curve
 from facemorph.core.picture import Look, checked_shading
 from facemorph.core.pose import NEUTRAL, Pose, parsed_weight, state_of
 from facemorph.core.rig import Rig
-from facemorph.errors import OptionError, PoseError
+from facemorph.errors import OptionError
 
 
 def pose_from(options: argparse.Namespace, rig: Rig) -> Pose:
@@ -44,17 +43,6 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
             raise OptionError(f"--set takes NAME=VALUE, as jawOpen=0.5; not {word!r}.")
         weights[name] = parsed_weight(value, f"--set {name}")
     return weights
-
-
-def number(text: str, option: str) -> float:
-    """A finite number. Raises `PoseError` naming the option."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise PoseError(f"{option} takes a number, not {text!r}.")
-    return value
 
 
 def look_from(options: argparse.Namespace) -> Look:

@@ -134,11 +134,12 @@ def export(options: argparse.Namespace) -> int:
 def rbf(options: argparse.Namespace) -> int:
     """Rebuild an expression from control points and tell the error."""
     from facemorph import api
-    from facemorph.cli.values import checked_suffix, number
+    from facemorph.cli.values import checked_suffix
+    from facemorph.core.pose import parsed_number
     from facemorph.deform.rbf import checked_kernel
 
     asked = None if options.kernel is None else checked_kernel(options.kernel)
-    c = None if options.c is None else number(options.c, "--c")
+    c = None if options.c is None else parsed_number(options.c, "--c")
     output = checked_suffix(options.output, ".obj") if options.output else None
     rig = api.load(options.face)
     points = api.control_points(rig, options.source, options.target, options.points)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from facemorph.core.arrays import Float32
+from facemorph.core.lengths import lengths
 from facemorph.core.rig import Rig
 from facemorph.errors import UnknownNameError
 
@@ -21,6 +22,6 @@ def glow_of(rig: Rig, weights: Mapping[str, float]) -> Float32:
         if name not in rig.names:
             raise UnknownNameError("shape", name, rig.names)
         moved += np.float32(weight) * rig.deltas[rig.names.index(name)]
-    lengths: Float32 = np.sqrt(np.einsum("vi,vi->v", moved, moved))
-    largest = float(lengths.max(initial=0.0))
-    return lengths / np.float32(largest) if largest > 0.0 else lengths
+    away = lengths(moved)
+    largest = float(away.max(initial=0.0))
+    return away / np.float32(largest) if largest > 0.0 else away

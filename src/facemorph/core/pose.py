@@ -28,14 +28,20 @@ def state_of(name: str) -> State:
     return {} if name == NEUTRAL else {name: 1.0}
 
 
-def parsed_weight(text: str, what: str) -> float:
-    """A weight from text. Raises `PoseError` naming `what` for no number, or one beyond `LARGEST_WEIGHT`."""
+def parsed_number(text: str, what: str) -> float:
+    """A finite number from text. Raises `PoseError` naming `what`."""
     try:
         value = float(text)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
         raise PoseError(f"{what} takes a number, not {text!r}.")
+    return value
+
+
+def parsed_weight(text: str, what: str) -> float:
+    """A weight from text. Raises `PoseError` naming `what` for no number, or one beyond `LARGEST_WEIGHT`."""
+    value = parsed_number(text, what)
     if abs(value) > LARGEST_WEIGHT:
         raise PoseError(
             f"{what} takes a number from -{LARGEST_WEIGHT:g} to {LARGEST_WEIGHT:g}, not {text!r}."

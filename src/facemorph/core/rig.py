@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -143,9 +143,3 @@ def plain_label(name: str) -> str:
     """A name as shown to people: `lip_corner` -> `Lip corner`."""
     words = name.replace("_", " ").strip()
     return words[:1].upper() + words[1:] if words else name
-
-
-def ordered_names(names: Sequence[str], first: Sequence[str]) -> list[str]:
-    """`names` with those of `first` leading, in its order."""
-    leading = [name for name in first if name in names]
-    return [*leading, *(name for name in names if name not in leading)]

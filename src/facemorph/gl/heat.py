@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Float64, UInt8
+from facemorph.core.arrays import Float64, UInt8
 
 # Stops of the ramp in OKLab's polar form: place, lightness, chroma, hue in degrees. From a quiet blue
 # over green and yellow to red: hue tells the value even where light and shadow change the lightness.
@@ -79,13 +79,6 @@ def ramp(count: int = 256) -> UInt8:
     a, b = stops[:, 2] * np.cos(hue), stops[:, 2] * np.sin(hue)
     lab = np.stack([np.interp(place, stops[:, 0], axis) for axis in (stops[:, 1], a, b)], axis=1)
     return (_srgb_from_oklab(lab) * 255.0 + 0.5).astype(np.uint8)
-
-
-def displacements(positions: Float32, reference: Float32) -> Float32:
-    """How far each vertex is from its place in `reference`, (V,), for positions and reference (V, 3)."""
-    moved = positions - reference
-    lengths: Float32 = np.sqrt(np.einsum("vi,vi->v", moved, moved))
-    return lengths
 
 
 def _srgb_from_oklab(lab: Float64) -> Float64:

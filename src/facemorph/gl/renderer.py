@@ -22,13 +22,14 @@ import numpy as np
 from facemorph.core.arrays import Float32, Float64, UInt8
 from facemorph.core.blend import Blend
 from facemorph.core.camera import Camera
+from facemorph.core.lengths import displacements
 from facemorph.core.picture import Look, checked_size
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene
 from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
-from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, displacements, heat_end, heat_legend
+from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.lights import Lights
 from facemorph.gl.painter import Painter
 from facemorph.gl.picking import Pick, pick

@@ -16,7 +16,6 @@ from facemorph.core.rig import Rig
 from facemorph.deform.controls import Controls
 from facemorph.errors import FacemorphError
 from facemorph.gl.heat import Legend
-from facemorph.resources import builtin_faces
 from facemorph.ui.state import App, Face
 from facemorph.ui.words import label_of
 
@@ -246,15 +245,12 @@ def export_mesh(app: App, path: Path) -> None:
     path = path if path.suffix.lower() == ".obj" else path.with_name(path.name + ".obj")
 
     def work(progress: Progress) -> Path:
-        from facemorph.core.normals import vertex_normals
-        from facemorph.io import write_obj
+        from facemorph.api import export_positions
 
         progress(0.1, "Morphing")
-        mesh = rig.neutral.with_positions(scene.positions(rig))
-        normals = vertex_normals(mesh.positions, rig.triangles)
+        positions = scene.positions(rig)
         progress(0.4, f"Writing {path.name}")
-        write_obj(path, mesh, normals)
-        return path
+        return export_positions(rig, positions, path)
 
     app.jobs.start(f"Exporting {path.name}", work, lambda saved: _saved(app, saved), _failing(app, path))
 
@@ -275,11 +271,6 @@ def tell_error(app: App, what: str, error: BaseException) -> None:
         f"{what}, because of a fault in facemorph ({name}). Please report it; Copy holds the details.",
         details,
     )
-
-
-def builtin_names() -> tuple[str, ...]:
-    """The built-in faces, by name."""
-    return tuple(builtin_faces())
 
 
 def _saved(app: App, path: Path) -> None:

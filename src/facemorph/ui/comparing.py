@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
+from facemorph.core.lengths import displacements
 from facemorph.core.morph import Curve, eased
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
@@ -175,7 +176,7 @@ def _rebuilt_way(app: App, rig: Rig, pose: Pose) -> Float32:
     kept, way = page.rebuilt
     if way is None or kept != key:
         source, target = rig.positions(dict(pose.source)), rig.positions(state_of(goal))
-        moved = np.linalg.norm(target - source, axis=1).astype(np.float32)
+        moved = displacements(target, source)
         result = rebuilt(rig, source, target, control_vertices(rig, REBUILD_POINTS, moved))
         way = result.positions - source
         page.rebuilt = (key, way)

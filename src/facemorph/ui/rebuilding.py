@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64, Int32
+from facemorph.core.lengths import displacements
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
@@ -32,7 +33,7 @@ def refresh(app: App, rig: Rig) -> None:
     def work(progress: Progress) -> tuple[Rebuilt, Scene, tuple[int, ...]]:
         progress(0.0, "Choosing points")
         first, last = rig.positions(state_of(source)), rig.positions(state_of(target))
-        vertices = control_vertices(rig, count, _lengths(last - first))
+        vertices = control_vertices(rig, count, displacements(last, first))
         progress(0.4, "Solving")
         result = rebuilt(rig, first, last, vertices, kernel, c)
         scene = Scene(Pose(), result.positions - rig.neutral.positions, reference=last)
@@ -73,7 +74,7 @@ def sweep(app: App, rig: Rig) -> None:
 def swept(rig: Rig, source: Float32, target: Float32, c: float | None, progress: Progress) -> Sweep:
     """Error and time for each kernel and count; not a number where a system cannot be solved."""
     counts = [count for count in COUNTS if count <= rig.neutral.vertex_count // 2]
-    moved = _lengths(target - source)
+    moved = displacements(target, source)
     errors = {kernel: np.full(len(counts), np.nan) for kernel in KERNELS}
     times = {kernel: np.full(len(counts), np.nan) for kernel in KERNELS}
     for place, count in enumerate(counts):
@@ -96,8 +97,3 @@ def _measure(
         return
     errors[kernel][place] = result.rms_percent
     times[kernel][place] = (result.bind_secs + result.drag_secs) * 1000.0
-
-
-def _lengths(moved: Float32) -> Float32:
-    lengths: Float32 = np.sqrt(np.einsum("vi,vi->v", moved, moved))
-    return lengths

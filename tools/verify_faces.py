@@ -1,6 +1,7 @@
 """Check an assets folder of baked faces: python tools/verify_faces.py [FOLDER]; exits 1 on a fault."""
 
 import argparse
+import re
 import sys
 import tomllib
 import zlib
@@ -10,7 +11,7 @@ import numpy as np
 
 PEOPLE = ("ada", "ben", "mei", "kofi", "zola", "omar")
 STATES = ("neutral", "happy", "sad", "angry", "surprised", "disgusted", "afraid")
-GROUPS = ["skin", "eye_L", "eye_R", "teeth_upper", "teeth_lower", "tongue", "lashes"]
+GROUPS = ["skin", "mouth", "eye_L", "eye_R", "teeth_upper", "teeth_lower", "tongue", "lashes"]
 PICTURES = ("skin.jpg", "eye.png", "teeth.png")
 REGIONS = ["brows", "eyes", "nose", "cheeks", "mouth", "jaw"]
 MEGABYTE = 1e6
@@ -32,9 +33,15 @@ class Report:
 
 
 def split_obj(text: str) -> tuple[str, str]:
-    """The part with the vertices, and the tail from the first texture coordinate on."""
-    start = text.index("\nvt ") + 1
+    """The part with the vertices, and the tail from the first texture coordinate or group on."""
+    start = min(place for place in (text.find("\nvt "), text.find("\ng ")) if place > 0) + 1
     return text[:start], text[start:]
+
+
+def bare_tail(tail: str) -> str:
+    """The neutral's tail without texture coordinates: what every shape's file ends with."""
+    lines = [line for line in tail.splitlines(keepends=True) if not line.startswith("vt ")]
+    return "".join(re.sub(r"/\d+", "", line) if line.startswith("f ") else line for line in lines)
 
 
 def read_points(text: str) -> np.ndarray:
@@ -42,12 +49,15 @@ def read_points(text: str) -> np.ndarray:
 
 
 def read_triangles(tail: str) -> np.ndarray:
+    """Triangles (t, 3) of the polygons of three or four corners."""
     faces = [line.split()[1:] for line in tail.splitlines() if line.startswith("f ")]
-    return np.array([[[int(n) for n in corner.split("/")] for corner in face] for face in faces]) - 1
+    corners = [[int(corner.split("/")[0]) - 1 for corner in face] for face in faces]
+    return np.array([[face[0], face[k], face[k + 1]] for face in corners for k in range(1, len(face) - 1)])
 
 
 def check_shapes(folder: Path, report: Report, points: dict, tail: str, triangles: np.ndarray):
-    """Points of every state, all over one tail."""
+    """Points of every state, all over the same polygons."""
+    bare = bare_tail(tail)
     for state in STATES:
         path = folder / f"{state}.obj"
         if not path.is_file():
@@ -55,10 +65,11 @@ def check_shapes(folder: Path, report: Report, points: dict, tail: str, triangle
             continue
         head, own_tail = split_obj(path.read_text(encoding="ascii"))
         points[state] = read_points(head)
-        report.require(own_tail == tail, f"{path}: its tail differs from the first file's")
-        report.require(len(points[state]) == triangles[..., 0].max() + 1, f"{path}: vertex count")
+        wanted = tail if state == "neutral" else bare
+        report.require(own_tail == wanted, f"{path}: its tail differs from the first file's")
+        report.require(len(points[state]) == triangles.max() + 1, f"{path}: vertex count")
         report.require(bool(np.isfinite(points[state]).all()), f"{path}: not all numbers")
-    corners = points["neutral"][triangles[..., 0]]
+    corners = points["neutral"][triangles]
     edges = corners[:, 1:] - corners[:, :1]
     area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2
     flat = int((area <= SMALLEST_AREA).sum())

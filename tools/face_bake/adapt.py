@@ -9,6 +9,7 @@ import numpy as np
 
 from .cage import BUST, MOUTH
 from .finemesh import FineMesh
+from .polygons import padded, renumbered
 
 # Extra weight, place and radii on the base head (|x|, y, z in decimetres): mouth, eyes, nose, brows, jaw.
 ATTRACTIVE = [
@@ -24,12 +25,14 @@ NOSTRIL = (0.10, 6.885, 1.55), (0.05, 0.025, 0.05)
 
 @dataclass(frozen=True)
 class AdaptiveMesh:
-    """pick, pick_uv: which fine vertices and uvs are kept; triangles, uv_triangles: (t, 3) into them."""
+    """pick, pick_uv: which fine vertices and uvs are kept; polygons, uv_polygons: (m, 4) into them, -1
+    for no fourth corner; island: (m,) of each polygon."""
 
     pick: np.ndarray
     pick_uv: np.ndarray
-    triangles: np.ndarray
-    uv_triangles: np.ndarray
+    polygons: np.ndarray
+    uv_polygons: np.ndarray
+    island: np.ndarray
 
 
 def bulge(fine: FineMesh, points: np.ndarray) -> np.ndarray:
@@ -132,33 +135,26 @@ def _patches(corner, edge, middle, split, chosen) -> list[list[int]]:
     return [[edge[i], b, c, d], [edge[i], d, a]]
 
 
-def _polygons(coarse, refinement, split, chosen) -> list[list[int]]:
-    result = []
+def _polygons(coarse, refinement, split, chosen) -> tuple[np.ndarray, np.ndarray]:
+    """Polygons (m, 4), and the coarse face (m,) of each."""
+    result, owner = [], []
     for k in range(len(coarse)):
-        result += _patches(
+        patches = _patches(
             coarse[k].tolist(),
             refinement.edge_of[k].tolist(),
             int(refinement.face_of[k]),
             split[k],
             bool(chosen[k]),
         )
-    return result
-
-
-def _fan(polygons: list[list[int]]) -> np.ndarray:
-    """Consecutive triangles of each polygon, (t, 3)."""
-    return np.array([[p[0], p[i], p[i + 1]] for p in polygons for i in range(1, len(p) - 1)])
+        result += patches
+        owner += [k] * len(patches)
+    return padded(result), np.array(owner)
 
 
 def build_adaptive_mesh(fine: FineMesh, chosen: np.ndarray) -> AdaptiveMesh:
     chosen, split = _close(fine, chosen)
-    triangles = _fan(_polygons(fine.coarse, fine.smooth, split, chosen))
-    uv_triangles = _fan(_polygons(fine.coarse_uv, fine.flat, split, chosen))
-    pick, triangles = _renumber(triangles)
-    pick_uv, uv_triangles = _renumber(uv_triangles)
-    return AdaptiveMesh(pick, pick_uv, triangles, uv_triangles)
-
-
-def _renumber(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    used, inverse = np.unique(triangles, return_inverse=True)
-    return used, inverse.reshape(triangles.shape)
+    polygons, owner = _polygons(fine.coarse, fine.smooth, split, chosen)
+    uv_polygons, _ = _polygons(fine.coarse_uv, fine.flat, split, chosen)
+    pick, polygons = renumbered(polygons)
+    pick_uv, uv_polygons = renumbered(uv_polygons)
+    return AdaptiveMesh(pick, pick_uv, polygons, uv_polygons, fine.coarse_island[owner])

@@ -24,7 +24,8 @@ class Bakery:
         self._source = Source(wheel)
         self._head = Head(self._source)
         self._painter = Painter(self._head, SKIN_SIZE)
-        self._layout = layout_text(self._head)
+        self._neutral_layout = layout_text(self._head, textured=True)
+        self._shape_layout = layout_text(self._head, textured=False)
         self._landmarks = find_landmarks(self._head)
         self._regions = build_regions(self._head)
 
@@ -35,7 +36,8 @@ class Bakery:
         body = Body(self._head, person)
         for expression, recipe in EXPRESSIONS.items():
             points = body.positions(body.shaper.shape(recipe))
-            write_obj(folder / f"{expression}.obj", f"{person.name}, {expression}", points, self._layout)
+            layout = self._shape_layout if recipe else self._neutral_layout
+            write_obj(folder / f"{expression}.obj", f"{person.name}, {expression}", points, layout)
         write_shapes(folder / "shapes.npz", body, self._source.arkit_names(), self._regions)
         write_mtl(folder / "face.mtl")
         write_toml(folder / "face.toml", person, [e for e in EXPRESSIONS if e != "neutral"], self._landmarks)

@@ -106,7 +106,7 @@ def _lid(side: int, upper: bool):
 
 
 def _lid_middle(probe, side: int, upper: bool) -> int:
-    lashes = probe.head.lashes[2 * (0 if side > 0 else 1) + (0 if upper else 1)]
+    lashes = probe.head.lashes.rows[2 * (0 if side > 0 else 1) + (0 if upper else 1)]
     row = probe.head.source.base.points[lashes.lid]
     return probe.nearest(row[len(row) // 2])
 
@@ -138,7 +138,8 @@ def _tooth(group: str, row: int):
 
 def _tongue(direction):
     def find(probe) -> int:
-        used = probe.head.tongue_rest()
+        base = probe.head.source.base.points
+        used = probe.head.tongue.laid(base, base)
         return probe.head.group("tongue").first + int(np.argmax(used @ np.array(direction)))
 
     return find

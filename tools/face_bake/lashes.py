@@ -2,11 +2,16 @@
 
 import numpy as np
 
+from .parts import PartGroup, Posed
+from .parts_eyes import EYE_VERTICES
+from .polygons import NONE, padded, shifted
+from .source import BaseMesh
 from .strips import catmull_rom, grid_of
 
 UPPER_HAIRS, LOWER_HAIRS = 46, 30
 # Fractions of a hair's length where it is two vertices wide; it ends in a single one.
 LEVELS = (0.0, 0.5)
+UPPER_STRIP, LOWER_STRIP = 2, 1
 CORNERS_PER_HAIR = 2 * len(LEVELS) + 1
 
 
@@ -21,7 +26,7 @@ class Lashes:
         self.lid, self.upper, self._grid = grid[0], upper, grid
         self._weights = self._operator(rng)
         self.count = len(self._weights)
-        self.triangles = self._triangles(self.count // CORNERS_PER_HAIR)
+        self.polygons = self._polygons(self.count // CORNERS_PER_HAIR)
 
     def _operator(self, rng) -> np.ndarray:
         """Weights (vertices, grid size): per hair a pair of vertices for each level, then the tip."""
@@ -42,11 +47,45 @@ class Lashes:
         return np.stack(parts, 1).reshape(count * CORNERS_PER_HAIR, -1)
 
     @staticmethod
-    def _triangles(hairs: int) -> np.ndarray:
-        first = CORNERS_PER_HAIR * np.arange(hairs)[:, None]
-        hair = np.array([0, 1, 3, 0, 3, 2, 2, 3, 4])
-        return (first + hair).reshape(-1, 3)
+    def _polygons(hairs: int) -> np.ndarray:
+        """A quad and a tip a hair, (m, 4)."""
+        first = CORNERS_PER_HAIR * np.arange(hairs)[:, None, None]
+        hair = padded([[0, 1, 3, 2], [2, 3, 4]])
+        return np.where(hair == NONE, NONE, first + hair).reshape(-1, 4)
 
     def place(self, shape: np.ndarray) -> np.ndarray:
         """Points (n, 3) in base-mesh space."""
         return self._weights @ shape[self._grid].reshape(-1, 3)
+
+
+class LashesPart:
+    """The lashes of both eyes: left upper, left lower, right upper, right lower."""
+
+    uv = np.array([[0.5, 0.5]])
+
+    def __init__(self, rows: list[Lashes]):
+        self.rows = rows
+        firsts = np.cumsum([0, *(row.count for row in rows)])
+        polygons = [shifted(row.polygons, first) for row, first in zip(rows, firsts, strict=False)]
+        self.groups = [PartGroup.of_one_uv("lashes", "lash", np.concatenate(polygons))]
+
+    @classmethod
+    def of(cls, base: BaseMesh) -> "LashesPart":
+        rng = np.random.default_rng(3)
+        centres = {side: base.points[ids].mean(0) for side, ids in zip("lr", EYE_VERTICES, strict=True)}
+        strips = [(side, strip) for side in "lr" for strip in (UPPER_STRIP, LOWER_STRIP)]
+        return cls(
+            [
+                Lashes(
+                    base.faces[f"helper-{side}-eyelashes-{strip}"],
+                    base.points,
+                    centres[side],
+                    strip == UPPER_STRIP,
+                    rng,
+                )
+                for side, strip in strips
+            ]
+        )
+
+    def place(self, posed: Posed) -> np.ndarray:
+        return np.concatenate([row.place(posed.shape) for row in self.rows])

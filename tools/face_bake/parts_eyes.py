@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from .parts import PartGroup, Posed
+from .polygons import NONE
+
 # MakeHuman's helper vertices of the left and the right eyeball.
 EYE_VERTICES = (np.arange(14598, 14670), np.arange(14670, 14742))
 SEGMENTS = 24
@@ -17,7 +20,7 @@ def _radius(degrees: float) -> float:
 
 
 def eye_mesh() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Points (n, 3) of a unit eye looking along +Z, uv (n, 2), triangles (t, 3).
+    """Points (n, 3) of a unit eye looking along +Z, uv (n, 2), polygons (m, 4).
 
     The rings are densest over the cornea; the back, never seen, is left open.
     """
@@ -29,18 +32,17 @@ def eye_mesh() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         ring = np.concatenate([np.sin(polar) * around, np.full((SEGMENTS, 1), np.cos(polar))], 1)
         points.append(_radius(degrees) * ring)
         uv.append(0.5 + 0.5 * degrees / TEXTURE_EDGE * around)
-    return np.concatenate(points), np.concatenate(uv), _eye_triangles()
+    return np.concatenate(points), np.concatenate(uv), _eye_polygons()
 
 
-def _eye_triangles() -> np.ndarray:
+def _eye_polygons() -> np.ndarray:
     here = np.arange(SEGMENTS)
     after = (here + 1) % SEGMENTS
-    triangles = [np.stack([np.zeros(SEGMENTS, int), 1 + here, 1 + after], -1)]
+    polygons = [np.stack([np.zeros(SEGMENTS, int), 1 + here, 1 + after, np.full(SEGMENTS, NONE)], -1)]
     for ring in range(len(RINGS) - 1):
         inner, outer = 1 + ring * SEGMENTS, 1 + (ring + 1) * SEGMENTS
-        quads = np.stack([inner + here, outer + here, outer + after, inner + after], -1)
-        triangles.append(quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3))
-    return np.concatenate(triangles)
+        polygons.append(np.stack([inner + here, outer + here, outer + after, inner + after], -1))
+    return np.concatenate(polygons)
 
 
 def fit_sphere(points: np.ndarray) -> tuple[np.ndarray, float]:
@@ -70,6 +72,18 @@ def place_eye(unit: np.ndarray, side: int, shape: np.ndarray, neutral: np.ndarra
     helper = EYE_VERTICES[side]
     centre, radius = eyeball(side, shape, neutral)
     return centre + (unit * radius * SCALE) @ rotation_between(neutral[helper], shape[helper]).T
+
+
+class Eye:
+    """One eyeball: side 0 is the left, 1 the right."""
+
+    def __init__(self, side: int):
+        self._side = side
+        self._points, self.uv, polygons = eye_mesh()
+        self.groups = [PartGroup(("eye_L", "eye_R")[side], "eye", polygons, polygons)]
+
+    def place(self, posed: Posed) -> np.ndarray:
+        return place_eye(self._points, self._side, posed.shape, posed.neutral)
 
 
 def push_out(points, rest, on_head, shape, neutral) -> np.ndarray:

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from .parts import PartGroup, Posed
 from .strips import catmull_rom, grid_of
-from .subdivide import triangulate
 
 # Half an arch from the middle outwards: relative widths and crown lengths.
 UPPER_WIDTHS = np.array([1.0, 0.78, 0.86, 0.82, 0.80, 1.1, 1.05])
@@ -50,16 +50,17 @@ class Teeth:
         arc = np.concatenate([[0], np.cumsum(steps)]) / steps.sum() * 2 - 1
         self._weights = catmull_rom(grid.shape[1], np.interp(along, arc, np.arange(grid.shape[1])))
         self.uv = np.stack(np.broadcast_arrays((along + 1) / 2, 1 - PICTURE_ROWS[:, None]), -1).reshape(-1, 2)
-        self.triangles = self._triangles(len(along))
+        polygons = self._polygons(len(along))
+        self.groups = [PartGroup("teeth_upper" if upper else "teeth_lower", "teeth", polygons, polygons)]
 
-    def _triangles(self, columns: int) -> np.ndarray:
+    def _polygons(self, columns: int) -> np.ndarray:
         i = np.arange(len(HEIGHTS) * columns).reshape(-1, columns)
         quads = np.stack([i[:-1, :-1], i[:-1, 1:], i[1:, 1:], i[1:, :-1]], -1).reshape(-1, 4)
-        return triangulate(quads if self._upper else quads[:, ::-1])
+        return quads if self._upper else quads[:, ::-1]
 
-    def place(self, shape: np.ndarray) -> np.ndarray:
+    def place(self, posed: Posed) -> np.ndarray:
         """Points (rows * columns, 3) in base-mesh space."""
-        gum, down, out = self._frame(shape)
+        gum, down, out = self._frame(posed.shape)
         rows = [
             gum + down * height + out * depth for height, depth in (self._row(k) for k in range(len(HEIGHTS)))
         ]

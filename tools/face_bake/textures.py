@@ -13,6 +13,8 @@ from .source import mask_at
 from .strips import catmull_rom
 
 FAR = 9.0
+# What casts shade on the skin beside itself.
+SOLIDS = ("eye_L", "eye_R", "teeth_upper", "teeth_lower")
 
 
 class Painter:
@@ -38,7 +40,7 @@ class Painter:
         base = self._head.source.base.points
         edge = [
             catmull_rom(len(lashes.lid), np.linspace(0, len(lashes.lid) - 1, 160)) @ base[lashes.lid]
-            for lashes in self._head.lashes
+            for lashes in self._head.lashes.rows
             if lashes.upper == upper
         ]
         distance = np.full(len(points), FAR, np.float32)
@@ -49,11 +51,8 @@ class Painter:
     def skin(self, body: Body) -> Image.Image:
         """The skin of a person with the occlusion of the neutral face baked in."""
         neutral = body.shaper.neutral
-        groups = self._head.groups[1:5]
-        blockers = [
-            (points, group.triangles - group.first)
-            for points, group in zip(body.solids(neutral), groups, strict=True)
-        ]
-        light = visible_sky(body.fine_skin(neutral), self._triangles, blockers, self._head.fine.averaging())
+        blockers = body.solids(neutral, SOLIDS)
+        skin = body.fine_skin(neutral) + body.scalp
+        light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
         colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
         return Image.fromarray(self._raster.picture(colours))

@@ -12,6 +12,7 @@ LICENCE = "CC0-1.0"
 # Colour (linear light), shine, exponent and picture.
 MATERIALS = {
     "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"),
+    "mouth": ((1, 1, 1), 0.16, 18, "skin.jpg"),
     "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
     "teeth": ((1, 1, 1), 0.5, 60, "teeth.png"),
     "tongue": ((0.32, 0.06, 0.055), 0.3, 30, None),
@@ -19,14 +20,22 @@ MATERIALS = {
 }
 
 
-def layout_text(head: Head) -> str:
-    """Texture coordinates and faces: the same text at the end of every OBJ of every person."""
-    lines = [f"vt {u:.4f} {v:.4f}" for u, v in head.uv.tolist()]
+def layout_text(head: Head, *, textured: bool) -> str:
+    """Faces, with texture coordinates or without: the same text at the end of every OBJ of every person.
+
+    The neutral alone carries texture coordinates; a shape is its positions, and files stay small.
+    """
+    lines = [f"vt {u:.4f} {v:.4f}" for u, v in head.uv.tolist()] if textured else []
     for group in head.groups:
         lines += [f"g {group.name}", f"usemtl {group.material}"]
-        corners = np.stack([group.triangles, group.uv_triangles], -1).reshape(-1, 6) + 1
-        lines += ["f {}/{} {}/{} {}/{}".format(*corner) for corner in corners.tolist()]
+        rows = zip((group.polygons + 1).tolist(), (group.uv_polygons + 1).tolist(), strict=True)
+        lines += [_face(corners, uvs, textured=textured) for corners, uvs in rows]
     return "\n".join(lines) + "\n"
+
+
+def _face(corners: list[int], uvs: list[int], *, textured: bool) -> str:
+    pairs = [(corner, uv) for corner, uv in zip(corners, uvs, strict=True) if corner > 0]
+    return "f " + " ".join(f"{corner}/{uv}" if textured else str(corner) for corner, uv in pairs)
 
 
 def write_obj(path: Path, title: str, points: np.ndarray, layout: str):

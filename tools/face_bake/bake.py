@@ -20,10 +20,10 @@ JPEG_QUALITY = 90
 class Bakery:
     """Prepares what all people share, then bakes them one by one."""
 
-    def __init__(self, wheel: Path):
+    def __init__(self, wheel: Path, skin_size: int = SKIN_SIZE):
         self._source = Source(wheel)
         self._head = Head(self._source)
-        self._painter = Painter(self._head, SKIN_SIZE)
+        self._painter = Painter(self._head, skin_size)
         self._neutral_layout = layout_text(self._head, textured=True)
         self._shape_layout = layout_text(self._head, textured=False)
         self._landmarks = find_landmarks(self._head)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from facemorph.ui.actions import MESH_SUFFIXES
+from facemorph.ui.files import MESH_SUFFIXES
 
 _HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
 TITLES = {

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import actions, dialogs, fonts, handles
+from facemorph.ui import dialogs, files, fonts, handles
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
@@ -17,8 +17,8 @@ from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
 
 _SUFFIXES = {
-    "open": (*actions.MESH_SUFFIXES, ".toml"),
-    "folder": actions.MESH_SUFFIXES,
+    "open": (*files.MESH_SUFFIXES, ".toml"),
+    "folder": files.MESH_SUFFIXES,
     "picture": (".png",),
     "mesh": (".obj",),
     "open points": (".json",),
@@ -151,17 +151,17 @@ def _take(app: App, purpose: str, paths: list[Path]) -> None:
     first = paths[0]
     app.settings.last_folder = str(first.parent)
     if purpose == "picture":
-        actions.save_picture(app, first)
+        files.save_picture(app, first)
     elif purpose == "mesh":
-        actions.export_mesh(app, first)
+        files.export_mesh(app, first)
     elif purpose == "open points":
         handles.load(app, first)
     elif purpose == "save points":
         handles.save(app, first)
     elif len(paths) == 1 and first.name == "face.toml":
-        actions.open_source(app, (str(first.parent),))
+        files.open_source(app, (str(first.parent),))
     else:
-        actions.open_source(app, [str(path) for path in paths])
+        files.open_source(app, [str(path) for path in paths])
 
 
 def _field(app: App, found: list[Entry]) -> bool:

@@ -23,7 +23,7 @@ def open_builtin(app: App, name: str) -> None:
 def open_source(app: App, source: Sequence[str], *, builtin: bool = False) -> None:
     """Load a face beside the window; the present one stays until that has gone well."""
     paths = tuple(source) if builtin else tuple(str(Path(path).absolute()) for path in source)
-    title = paths[0] if builtin else _short(paths)
+    title = paths[0] if builtin else short(paths)
 
     def work(progress: Progress) -> Rig:
         return load(paths, progress, builtin=builtin)
@@ -99,6 +99,7 @@ def _failing(app: App, path: Path) -> Callable[[BaseException], None]:
     return failed
 
 
-def _short(paths: tuple[str, ...]) -> str:
+def short(paths: tuple[str, ...]) -> str:
+    """A file's or folder's name, and how many more there are."""
     name = Path(paths[0]).name or paths[0]
     return name if len(paths) == 1 else f"{name} and {len(paths) - 1} more"

@@ -21,7 +21,7 @@ from facemorph.deform.controls import Controls, PeopleControl
 from facemorph.deform.people import PeopleMix
 from facemorph.errors import CorrespondenceError, PoseError
 from facemorph.gl import Offscreen, Renderer
-from facemorph.ui.methods import Methods
+from facemorph.ui.methods import OWN, Methods
 from facemorph.ui.state import App, Face
 from tests.gl.heads import head_rig
 from tests.gl.test_scenes import FACING, KINDS, POSE, SIZE, drawn
@@ -146,7 +146,7 @@ def test_turning_to_a_third_person_changes_no_pixel(screen: Offscreen, people: l
     app = App()
     app.face = Face(people[0], ("own",))
     app.methods = Methods(people=dict(zip("bcd", people[1:4], strict=True)))
-    own = app.face.title
+    own = OWN
     mix = PeopleMix({own: 1.0}, "b", 0.6)
     before = None
     for goal in ("c", own, "d", "b"):

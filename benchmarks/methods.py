@@ -61,7 +61,7 @@ def _every_method() -> Table:
 
     def frame(setting: Controls, partner: bool) -> object:
         moving = Pose.between("neutral", "happy", (next(step) % 20) / 20)
-        colours = Partner(other, 0.4) if partner else None
+        colours = [Partner(other, 0.4)] if partner else []
         renderer.draw(
             Scene.moved(moving, bound(moving, setting), colours), camera, Look(), SIZE, quality="fast"
         )

@@ -32,15 +32,17 @@ in vec3 colour;                        // sRGB, as a texture's
 out vec3 surface_colour;
 #endif
 
-#ifdef PARTNER_UV
-in vec2 partner_uv;
-out vec2 surface_partner_uv;
+#repeat PARTNERS
+#ifdef PARTNER@_UV
+in vec2 partner@_uv;
+out vec2 surface_partner@_uv;
 #endif
 
-#ifdef PARTNER_COLOURED
-in vec3 partner_colour;
-out vec3 surface_partner_colour;
+#ifdef PARTNER@_COLOURED
+in vec3 partner@_colour;
+out vec3 surface_partner@_colour;
 #endif
+#end
 
 #ifdef HEAT
 in vec3 reference;                     // where displacements are measured from
@@ -76,12 +78,14 @@ void main() {
 #ifdef COLOURED
     surface_colour = colour;
 #endif
-#ifdef PARTNER_UV
-    surface_partner_uv = partner_uv;
+#repeat PARTNERS
+#ifdef PARTNER@_UV
+    surface_partner@_uv = partner@_uv;
 #endif
-#ifdef PARTNER_COLOURED
-    surface_partner_colour = partner_colour;
+#ifdef PARTNER@_COLOURED
+    surface_partner@_colour = partner@_colour;
 #endif
+#end
 #ifdef HEAT
     displacement = distance(position, reference);
 #endif

@@ -83,7 +83,7 @@ def people(screen: facemorph.Offscreen, path: Path) -> None:
     for s in np.linspace(0.0, 1.0, 5):
         pose = facemorph.Pose.between("neutral", "happy", float(s))
         controls = Controls(people=PeopleControl(PeopleMix({"ada": 1.0}, "kofi", float(s))))
-        scene = Scene.moved(pose, bound(pose, controls), Partner(other, float(s)))
+        scene = Scene.moved(pose, bound(pose, controls), [Partner(other, float(s))])
         tiles.append(screen.render(rig, scene, size=(300, 340), camera="-15,2"))
     save(path, np.concatenate(tiles, axis=1))
 

@@ -1,4 +1,5 @@
-// A surface's own colour: a linear factor times a colour stored as sRGB, a texture's or a vertex's.
+// A surface's own colour: a linear factor times a colour stored as sRGB, a texture's or a vertex's; and
+// other people's colours mixed into it.
 #include "lib/colour.glsl"
 
 uniform vec3 albedo;                   // the factor
@@ -13,63 +14,92 @@ in vec2 surface_uv;
 in vec3 surface_colour;
 #endif
 
-#ifdef PARTNER
+#ifdef PARTNERS
 uniform vec3 stored_colour;            // where there is neither texture nor vertex colour
-uniform vec3 partner_stored_colour;
-uniform vec3 partner_albedo;
-uniform float partner_opacity;
-uniform float partner_share;           // 0 is the face's own colour, 1 the partner's
-#ifdef PARTNER_TEXTURED
-uniform sampler2D partner_texture;
-#ifdef PARTNER_UV
-in vec2 surface_partner_uv;
+uniform float own_share;               // of the mixture; all shares together are 1
+#endif
+
+#repeat PARTNERS
+uniform vec3 partner@_stored_colour;
+uniform vec3 partner@_albedo;
+uniform float partner@_opacity;
+uniform float partner@_share;
+#ifdef PARTNER@_TEXTURED
+uniform sampler2D partner@_texture;
+#ifdef PARTNER@_UV
+in vec2 surface_partner@_uv;
 #endif
 #endif
-#ifdef PARTNER_COLOURED
-in vec3 surface_partner_colour;
+#ifdef PARTNER@_COLOURED
+in vec3 surface_partner@_colour;
 #endif
-#endif
+#end
 
 vec4 own_stored() {
 #if defined(TEXTURED)
     return texture(albedo_texture, surface_uv);
 #elif defined(COLOURED)
     return vec4(surface_colour, 1.0);
-#elif defined(PARTNER)
+#elif defined(PARTNERS)
     return vec4(stored_colour, 1.0);
 #else
     return vec4(1.0);
 #endif
 }
 
-#ifdef PARTNER
-vec4 partner_stored() {
-#if defined(PARTNER_TEXTURED) && defined(PARTNER_UV)
-    return texture(partner_texture, surface_partner_uv);
-#elif defined(PARTNER_TEXTURED)
-    return texture(partner_texture, surface_uv);
-#elif defined(PARTNER_COLOURED)
-    return vec4(surface_partner_colour, 1.0);
+#repeat PARTNERS
+vec4 partner@_stored() {
+#if defined(PARTNER@_UV)
+    return texture(partner@_texture, surface_partner@_uv);
+#elif defined(PARTNER@_TEXTURED)
+    return texture(partner@_texture, surface_uv);
+#elif defined(PARTNER@_COLOURED)
+    return vec4(surface_partner@_colour, 1.0);
 #else
-    return vec4(partner_stored_colour, 1.0);
+    return vec4(partner@_stored_colour, 1.0);
 #endif
+}
+#end
+
+#ifdef PARTNERS
+// colour = sum of share * colour, of the stored values (thesis, 2.1.2).
+struct Mixture {
+    vec3 stored;
+    vec3 factor;
+    float weight;
+    float covered;
+};
+
+void add(inout Mixture sum, float share, vec4 stored, vec3 factor, float opaque) {
+    float cover = share * opaque * stored.a;
+#ifdef CUTOUT
+    // What covers less counts less.
+    float weight = cover;
+#else
+    float weight = share;
+#endif
+    sum.stored += weight * stored.rgb;
+    sum.factor += weight * factor;
+    sum.weight += weight;
+    sum.covered += cover;
 }
 #endif
 
 // Linear colour, and how much it covers.
 vec4 painted() {
     vec4 own = own_stored();
-#ifdef PARTNER
-    // colour = (1 - s) own + s partner, of the stored values (thesis, 2.1.2); what covers less counts less.
-    vec4 theirs = partner_stored();
-    vec2 weight = vec2(1.0 - partner_share, partner_share);
-    vec2 cover = weight * vec2(opacity * own.a, partner_opacity * theirs.a);
-    float covered = cover.x + cover.y;
+#ifdef PARTNERS
+    Mixture sum = Mixture(vec3(0.0), vec3(0.0), 0.0, 0.0);
+    add(sum, own_share, own, albedo, opacity);
+#repeat PARTNERS
+    add(sum, partner@_share, partner@_stored(), partner@_albedo, partner@_opacity);
+#end
 #ifdef CUTOUT
-    weight = covered > 0.0 ? cover / covered : weight;
+    float per_weight = 1.0 / max(sum.weight, 1e-6);
+    sum.stored *= per_weight;
+    sum.factor *= per_weight;
 #endif
-    vec3 factor = weight.x * albedo + weight.y * partner_albedo;
-    return vec4(factor * linear_from_srgb(weight.x * own.rgb + weight.y * theirs.rgb), covered);
+    return vec4(sum.factor * linear_from_srgb(sum.stored), sum.covered);
 #elif defined(TEXTURED) || defined(COLOURED)
     return vec4(albedo * linear_from_srgb(own.rgb), opacity * own.a);
 #else

@@ -117,7 +117,7 @@ def export_positions(rig: Rig, positions: Float32, path: str | Path) -> Path:
 def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> HandleSet:
     """Points to rebuild `target` from: so many that cover what moves, or those of a handles file.
 
-    Raises `OptionError`, `DeformError`, `UnknownNameError`, `FaceFolderError`, `MeshFileError`.
+    Raises `OptionError`, `DeformError`, `UnknownNameError`, `ControlsFileError`, `MeshFileError`.
     """
     from facemorph.deform.handles import Handle, HandleSet
     from facemorph.deform.rebuild import control_vertices

@@ -6,6 +6,7 @@
       MeshDataError                 arrays that do not make a mesh
       CorrespondenceError           a shape that does not match its neutral
       FaceFolderError               a folder (or set of files) that is not a face
+      ControlsFileError             a file of points or regions that is none, or is for another face
       UnknownNameError              a shape, expression, face, unit or option nobody knows
       DeformError                   controls of a method that make no deformation: coincident points, ...
       PoseError                     a weight or position on the slider that is no usable number
@@ -63,6 +64,10 @@ class CorrespondenceError(FacemorphError):
 
 class FaceFolderError(FacemorphError):
     """A folder, or a list of files, that does not make a face."""
+
+
+class ControlsFileError(FacemorphError):
+    """A file that should keep controls of a method (points, regions) and cannot be used on this face."""
 
 
 class UnknownNameError(FacemorphError):

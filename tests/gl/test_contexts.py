@@ -119,6 +119,17 @@ def test_includes_are_taken_once_and_lines_keep_their_origin(folder: Path) -> No
     assert [source.place(line) for line in (1, 4, 5)] == ["a.vert:1", "b.glsl:2", "a.vert:4"]
 
 
+def test_what_is_repeated_is_written_out_with_its_number_and_keeps_its_lines(folder: Path) -> None:
+    write(folder, a__vert="#version 330 core\n#repeat THINGS\nfloat a@;\nint b@;\n#end\nvoid main() {}\n")
+    source = read_source(folder, "a.vert", ["THINGS 2"])
+    assert source.text.splitlines() == [
+        "#version 330 core", "#define THINGS 2", "float a0;", "int b0;", "float a1;", "int b1;",
+        "void main() {}",
+    ]  # fmt: skip
+    assert [source.place(line) for line in (3, 6, 7)] == ["a.vert:3", "a.vert:4", "a.vert:6"]
+    assert "a0" not in read_source(folder, "a.vert").text, "none without a count"
+
+
 def test_a_missing_include_names_who_asked(folder: Path) -> None:
     write(folder, a__vert='#version 330 core\n\n#include "gone.glsl"\n')
     with pytest.raises(GraphicsError, match=r"a\.vert:3.*gone\.glsl"):

@@ -60,8 +60,8 @@ def scenes(head: Rig, partner: Rig) -> dict[str, tuple[str, Scene, Look]]:
     return {
         "glow": ("front", Scene(pose, glow=glow_of(head, {"smile": 1.0})), Look()),
         "glow-clay": ("three-quarter", Scene(pose, glow=glow_of(head, {"brows": 1.0})), Look(shading="clay")),
-        "partner-half": ("front", Scene(pose, offsets, partner=Partner(partner, 0.5)), light),
-        "partner": ("front", Scene(pose, offsets, partner=Partner(partner, 1.0)), light),
+        "partner-half": ("front", Scene(pose, offsets, partners=(Partner(partner, 0.5),)), light),
+        "partner": ("front", Scene(pose, offsets, partners=(Partner(partner, 1.0),)), light),
         "difference": ("front", Scene(pose, offsets, reference=head.positions(pose)), Look(shading="heat")),
     }
 

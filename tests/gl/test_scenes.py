@@ -173,8 +173,8 @@ def test_scenes_that_do_not_fit_are_refused_and_the_face_stays(
         (Scene(POSE, offsets=endless), PoseError, "offsets"),
         (Scene(POSE, reference=endless), PoseError, "reference"),
         (Scene(POSE, glow=endless[:, 0]), PoseError, "glow"),
-        (Scene(POSE, partner=Partner(partner, float("nan"))), PoseError, "s must be"),
-        (Scene(POSE, partner=Partner(head_rig(rows=20), 0.5)), CorrespondenceError, "vertices"),
+        (Scene(POSE, partners=(Partner(partner, float("nan")),)), PoseError, "weights must be"),
+        (Scene(POSE, partners=(Partner(head_rig(rows=20), 0.5),)), CorrespondenceError, "vertices"),
     ]
     for scene, error, words in refused:
         with pytest.raises(error, match=words):
@@ -191,7 +191,7 @@ def test_a_partner_with_its_polygons_turned_over_is_refused(
     turned = mesh.corner_vertices.reshape(-1, 4)[:, ::-1].ravel().copy()
     other = Rig(replace(mesh, corner_vertices=turned), partner.shapes, partner.deltas, partner.info)
     with pytest.raises(CorrespondenceError, match="turned over"):
-        renderer.draw(Scene(Pose(), partner=Partner(other, 0.0)), camera, Look(), SIZE)
+        renderer.draw(Scene(Pose(), partners=(Partner(other, 0.0),)), camera, Look(), SIZE)
 
 
 # The lit-up region
@@ -289,7 +289,7 @@ def test_at_0_it_is_the_face_itself_and_at_1_it_has_the_partners_colours(
     renderer.draw(scene, camera, Look(), SIZE, quality=quality, exactly=True)
     pictures.append(renderer.read())
     for s in (0.0, 1.0):
-        renderer.draw(replace(scene, partner=Partner(partner, s)), camera, Look(), SIZE, quality=quality)
+        renderer.draw(replace(scene, partners=(Partner(partner, s),)), camera, Look(), SIZE, quality=quality)
         pictures.append(renderer.read())
     alone = Renderer(ctx, renderer.path)
     alone.load(wearing(head, partner))
@@ -317,7 +317,7 @@ def test_each_colour_is_looked_up_at_its_own_coordinate(screen: Offscreen, head:
     )
     own = screen.render(head, POSE, size=SIZE).astype(int)
     for s in (0.3, 1.0):
-        scene = Scene(POSE, partner=Partner(Rig(mesh, head.shapes, head.deltas), s))
+        scene = Scene(POSE, partners=(Partner(Rig(mesh, head.shapes, head.deltas), s),))
         assert np.abs(screen.render(head, scene, size=SIZE) - own).max() <= 2
 
 
@@ -339,7 +339,7 @@ def test_polygons_in_another_order_that_begin_elsewhere_lend_the_same_colours(
     )
     pictures = [
         screen.render(
-            head, Scene(POSE, partner=Partner(Rig(m, partner.shapes, partner.deltas), 0.6)), size=SIZE
+            head, Scene(POSE, partners=(Partner(Rig(m, partner.shapes, partner.deltas), 0.6),)), size=SIZE
         )
         for m in (mesh, other)
     ]
@@ -352,21 +352,21 @@ def test_polygons_in_another_order_that_begin_elsewhere_lend_the_same_colours(
 def test_seams_that_lie_elsewhere_split_vertices_by_both(
     renderer: Renderer, head: Rig, camera: Camera
 ) -> None:
-    """A partner none of whose polygons share a texture coordinate."""
+    """A partner none of whose polygons share a texture coordinate, each a hair from the face's own."""
     mesh = head.neutral
     assert mesh.corner_uvs is not None
-    loose = replace(
-        mesh, uvs=mesh.uvs[mesh.corner_uvs], corner_uvs=np.arange(len(mesh.corner_uvs), dtype=np.int32)
-    )
+    corners = np.arange(len(mesh.corner_uvs), dtype=np.int32)
+    shifts = (1e-6 * (corners[:, None] % 97 + 1)).astype(np.float32)
+    loose = replace(mesh, uvs=mesh.uvs[mesh.corner_uvs] + shifts, corner_uvs=corners)
     renderer.draw(POSE, camera, Look(), SIZE, exactly=True)
     own, count = renderer.read(), len(drawn(renderer)[2])
-    scene = Scene(POSE, partner=Partner(Rig(loose, head.shapes, head.deltas), 0.5))
+    scene = Scene(POSE, partners=(Partner(Rig(loose, head.shapes, head.deltas), 0.5),))
     renderer.draw(scene, camera, Look(), SIZE, exactly=True)
     positions, _, of = drawn(renderer)
     assert len(of) > 2 * count
     assert np.abs(positions - scene.positions(head)[of]).max() < 1e-5 * head.neutral.diagonal
     assert np.abs(renderer.read().astype(int) - own).max() <= 1
-    renderer.draw(replace(scene, partner=None), camera, Look(), SIZE, exactly=True)
+    renderer.draw(replace(scene, partners=()), camera, Look(), SIZE, exactly=True)
     assert np.array_equal(renderer.read(), own)
 
 
@@ -375,7 +375,7 @@ def test_sliding_s_uploads_and_morphs_nothing(
 ) -> None:
     offsets = offsets_of(head)
     scene = Scene(POSE, offsets, glow=glow_of(head, {"smile": 1.0}))
-    renderer.draw(replace(scene, partner=Partner(partner, 0.2)), camera, Look(), SIZE)
+    renderer.draw(replace(scene, partners=(Partner(partner, 0.2),)), camera, Look(), SIZE)
     morphs, partners = renderer.stats.morphs, renderer.stats.partners
     written: list[str] = []
     for kind in (moderngl.Buffer, moderngl.Texture):
@@ -383,7 +383,7 @@ def test_sliding_s_uploads_and_morphs_nothing(
     monkeypatch.setattr(renderer.ctx, "buffer", lambda *a, **k: written.append("new"), raising=False)
     pictures = []
     for s in (0.3, 0.6, 1.0):
-        renderer.draw(replace(scene, partner=Partner(partner, s)), camera, Look(), SIZE)
+        renderer.draw(replace(scene, partners=(Partner(partner, s),)), camera, Look(), SIZE)
         pictures.append(renderer.read())
     renderer.draw(scene, camera, Look(), SIZE)
     assert not written
@@ -444,7 +444,7 @@ def test_colours_of_every_kind_blend_as_they_are_stored(
     pale, dark = KINDS[own](folder, PALE), KINDS[other](folder, DARK)
     half = KINDS["texture"](folder, HALF)
     for s, alone in ((0.0, pale), (0.5, half), (1.0, dark)):
-        mixed = screen.render(pale, Scene(Pose(), partner=Partner(dark, s)), size=(40, 40), camera=FACING)
+        mixed = screen.render(pale, Scene(Pose(), partners=(Partner(dark, s),)), size=(40, 40), camera=FACING)
         wanted = screen.render(alone, {}, size=(40, 40), camera=FACING)
         assert np.abs(mixed.astype(int) - wanted).max() <= 1, s
 
@@ -458,7 +458,7 @@ def test_encoding_undoes_the_shaders_decoding() -> None:
 def test_a_partner_seen_through_lets_the_backdrop_through_by_its_share(screen: Offscreen) -> None:
     solid, glass = _plain((0.5, 0.4, 0.3)), _plain((0.5, 0.4, 0.3), opacity=0.2)
     for s, alpha in ((0.0, 255), (0.5, 153), (1.0, 51)):
-        scene = Scene(Pose(), partner=Partner(glass, s))
+        scene = Scene(Pose(), partners=(Partner(glass, s),))
         pixels = screen.render(solid, scene, size=(40, 40), camera=FACING, look=CLEAR)
         assert abs(int(pixels[20, 20, 3]) - alpha) <= 1
 
@@ -474,7 +474,7 @@ def test_what_a_cut_out_hides_lends_no_colour(screen: Offscreen, folder: Path) -
     own = _textured(folder, PALE)
     alone = screen.render(own, {}, size=(40, 40), camera=FACING, look=CLEAR)
     mixed = screen.render(
-        own, Scene(Pose(), partner=Partner(clear, 0.5)), size=(40, 40), camera=FACING, look=CLEAR
+        own, Scene(Pose(), partners=(Partner(clear, 0.5),)), size=(40, 40), camera=FACING, look=CLEAR
     )
     assert abs(int(mixed[20, 20, 3]) - 128) <= 1
     assert np.abs(mixed[20, 20, :3].astype(int) - alone[20, 20, :3]).max() <= 3
@@ -482,9 +482,8 @@ def test_what_a_cut_out_hides_lends_no_colour(screen: Offscreen, folder: Path) -
 
 def test_s_beyond_its_ends_is_taken_for_them(screen: Offscreen, head: Rig, partner: Rig) -> None:
     for beyond, end in ((-0.5, 0.0), (1.7, 1.0)):
-        pictures = [
-            screen.render(head, Scene(POSE, partner=Partner(partner, s)), size=SIZE) for s in (beyond, end)
-        ]
+        scenes = [Scene(POSE, partners=(Partner(partner, s),)) for s in (beyond, end)]
+        pictures = [screen.render(head, scene, size=SIZE) for scene in scenes]
         assert np.array_equal(pictures[0], pictures[1])
 
 
@@ -493,9 +492,9 @@ def test_a_partners_texture_that_cannot_be_read_is_told(
 ) -> None:
     materials = {"skin": Material("skin", (0.1, 0.2, 0.3), texture=Path("/nowhere/at-all.png"))}
     other = Rig(replace(head.neutral, materials=materials), head.shapes, head.deltas)
-    renderer.draw(Scene(POSE, partner=Partner(other, 0.5)), camera, Look(), SIZE)
+    renderer.draw(Scene(POSE, partners=(Partner(other, 0.5),)), camera, Look(), SIZE)
     assert [("at-all.png" in problem) for problem in renderer.problems] == [True]
-    renderer.draw(Scene(POSE, partner=Partner(head_rig(), 0.5)), camera, Look(), SIZE)
+    renderer.draw(Scene(POSE, partners=(Partner(head_rig(), 0.5),)), camera, Look(), SIZE)
     assert not renderer.problems, "of a partner that is gone nothing is told"
 
 
@@ -506,7 +505,7 @@ def test_partners_come_and_go_and_the_face_is_itself_again(
     own = renderer.read()
     second = head_rig()
     for other in (partner, second, partner):
-        renderer.draw(Scene(POSE, partner=Partner(other, 1.0)), camera, Look(), SIZE)
+        renderer.draw(Scene(POSE, partners=(Partner(other, 1.0),)), camera, Look(), SIZE)
         renderer.draw(POSE, camera, Look(), SIZE, exactly=True)
         assert np.array_equal(renderer.read(), own)
     assert renderer.stats.partners == 3
@@ -517,7 +516,7 @@ def test_partner_colours_show_in_skin_only(screen: Offscreen, head: Rig, partner
         look = Look(shading=shading)
         own = screen.render(head, POSE, size=SIZE, look=look)
         assert np.array_equal(
-            screen.render(head, Scene(POSE, partner=Partner(partner, 1.0)), size=SIZE, look=look), own
+            screen.render(head, Scene(POSE, partners=(Partner(partner, 1.0),)), size=SIZE, look=look), own
         )
 
 
@@ -528,7 +527,7 @@ def test_two_renderers_in_one_context_do_not_disturb_each_other(
     ctx: moderngl.Context, head: Rig, partner: Rig, camera: Camera
 ) -> None:
     scenes = [
-        Scene(POSE, offsets_of(head), partner=Partner(partner, 0.5)),
+        Scene(POSE, offsets_of(head), partners=(Partner(partner, 0.5),)),
         Scene(Pose(), glow=glow_of(head, {"jaw": 1})),
     ]
     alone = []

@@ -14,7 +14,7 @@ from facemorph.core.progress import silent
 from facemorph.core.rig import Rig
 from facemorph.deform.controls import BoundControls, Controls
 from facemorph.deform.handles import Handle, HandleSet
-from facemorph.ui import actions, comparing
+from facemorph.ui import actions, comparing, files
 from tests.ui.harness import Offscreen
 
 FACE = (450, 380)
@@ -167,7 +167,7 @@ def test_a_saved_picture_holds_both_views(page: Offscreen, tmp_path: Path) -> No
     app.lab.compare.split = True
     page.frames(4)
     path = tmp_path / "both.png"
-    actions.save_picture(app, path)
+    files.save_picture(app, path)
     page.until(path.exists)
     page.until(lambda: not app.jobs.running)
     assert Image.open(path).size == (2 * app.views()[0].size[0], app.views()[0].size[1])

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from facemorph.core.rig import Regions, Rig
-from facemorph.deform.regions import RegionControl
+from facemorph.deform.regions import RegionControl, RegionSet
+from facemorph.io import write_regions
 from facemorph.ui import actions, regions
 from facemorph.ui.state import Face
 from tests.ui.harness import Offscreen, ball_rig
@@ -146,3 +148,89 @@ def test_beside_the_face_the_brush_turns_it(page: Offscreen) -> None:
     page.drag((60, 700), (160, 700))
     assert page.app.camera.azimuth_deg != azimuth
     assert page.app.painted is None
+
+
+def chosen_in_chooser(page: Offscreen, purpose: str, path: Path) -> None:
+    """Ask for a file and type its path."""
+    actions.ask_for(page.app, purpose)
+    page.frames(3)
+    page.key("A", ctrl=True)
+    page.type(str(path))
+    page.key("enter")
+    page.frames(2)
+
+
+def test_painted_regions_are_saved_and_opened_through_the_chooser(page: Offscreen, tmp_path: Path) -> None:
+    app = page.app
+    app.lab.regions.painting, app.lab.regions.region = True, "jaw"
+    page.frames(3)
+    page.drag((FACE[0] + 60, 230), (FACE[0] + 110, 240), steps=10)
+    painted = app.painted.weights.copy()
+    chosen_in_chooser(page, "save regions", tmp_path / "mine")
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.npz"]
+    regions.use(app, None)
+    page.frames(2)
+    chosen_in_chooser(page, "open regions", tmp_path / "mine.npz")
+    assert np.array_equal(app.painted.weights, painted)
+    page.key("Z", ctrl=True)
+    assert app.painted is None
+    page.key("Z", ctrl=True, shift=True)
+    assert np.array_equal(app.painted.weights, painted)
+
+
+def test_saving_regions_over_a_file_asks_first(page: Offscreen, tmp_path: Path) -> None:
+    (tmp_path / "mine.npz").write_text("of somebody's")
+    chosen_in_chooser(page, "save regions", tmp_path / "mine.npz")
+    assert (tmp_path / "mine.npz").read_text() == "of somebody's"
+    assert page.app.chooser.replacing == str(tmp_path / "mine.npz")
+    page.app.chooser.fresh = True  # as a click into the field
+    page.frames(3)
+    page.key("enter")
+    page.frames(2)
+    assert page.app.chooser.purpose == ""
+    assert (tmp_path / "mine.npz").read_bytes()[:2] == b"PK"
+
+
+def test_regions_of_other_names_take_the_place_of_the_faces_own(page: Offscreen, tmp_path: Path) -> None:
+    app, rig = page.app, page.app.rig
+    whole = np.ones((1, rig.neutral.vertex_count), np.float32)
+    write_regions(tmp_path / "head.npz", RegionSet(rig, ("head",), whole), rig)
+    regions.change(app, {"brows": RegionControl(target={"happy": 1.0}, t=1.0)})
+    page.frames(2)
+    regions.load(app, tmp_path / "head.npz")
+    page.frames(2)
+    assert regions.names(app) == ("head",)
+    assert not app.controls.regions
+    assert app.controls.on("regions")
+    x, y = find_row(page, "head")
+    page.drag((x, y), (x + 60, y))
+    t = app.controls.regions["head"].t
+    assert t > 0.2
+    assert app.scene().positions(rig) == pytest.approx(rig.positions({"happy": t}), abs=1e-4)
+    page.key("Z", ctrl=True)
+    page.key("Z", ctrl=True)
+    assert app.controls.regions["brows"].t == 1.0
+    assert regions.names(app) == ("brows", "jaw")
+
+
+def test_a_damaged_file_of_regions_is_told_and_changes_nothing(page: Offscreen, tmp_path: Path) -> None:
+    app = page.app
+    (tmp_path / "bad.npz").write_text("no")
+    regions.change(app, {"brows": RegionControl(shift=(0.0, 1.0, 0.0))})
+    before = app.snapshot()
+    chosen_in_chooser(page, "open regions", tmp_path / "bad.npz")
+    assert "bad.npz" in app.messages.shown[-1].text
+    assert app.painted is before.painted
+    assert app.controls == before.controls
+
+
+def test_the_pages_buttons_ask_for_a_file(page: Offscreen) -> None:
+    asked = set()
+    for y in range(110, 200, 10):
+        for x in (1090, 1220):
+            page.click(x, y)
+            page.frames(2)
+            asked.add(page.app.chooser.purpose)
+            page.app.chooser.purpose = ""
+            page.frames(2)
+    assert {"open regions", "save regions"} <= asked

@@ -13,7 +13,7 @@ from imgui_bundle import imgui
 from facemorph.core.camera import Camera
 from facemorph.core.rig import Rig
 from facemorph.errors import GraphicsError
-from facemorph.ui import actions, fonts
+from facemorph.ui import actions, files, fonts
 from facemorph.ui.commands import MENUS, STATIC, commands
 from facemorph.ui.panels.palette import ranked
 from facemorph.ui.settings import Settings
@@ -310,7 +310,7 @@ def test_the_palette_ranks_titles_that_begin_so(window: Offscreen) -> None:
 
 
 def test_a_folder_is_opened_beside_the_window(window: Offscreen, obj_face: Path) -> None:
-    actions.open_source(window.app, (str(obj_face),))
+    files.open_source(window.app, (str(obj_face),))
     window.until(lambda: window.app.face is not None and window.app.face.rig.names == ("happy",))
     assert window.app.settings.recent == [[str(obj_face)]]
     window.key("Z", ctrl=True)
@@ -322,7 +322,7 @@ def test_a_bad_file_keeps_the_face_and_tells_why_until_read(window: Offscreen, t
     bad = tmp_path / "bad.obj"
     bad.write_text("v 0 0 0\nf 1 2 3\n")
     face = window.app.face
-    actions.open_source(window.app, (str(bad),))
+    files.open_source(window.app, (str(bad),))
     window.until(lambda: bool(window.app.messages.shown))
     window.frames(600)
     (message,) = window.app.messages.shown
@@ -350,7 +350,7 @@ def test_a_face_that_cannot_be_drawn_keeps_the_one_before(window: Offscreen, mon
 def test_the_picture_saved_is_the_face_as_seen(window: Offscreen, tmp_path: Path) -> None:
     from PIL import Image
 
-    actions.save_picture(window.app, tmp_path / "face")
+    files.save_picture(window.app, tmp_path / "face")
     window.until(lambda: (tmp_path / "face.png").exists() and not window.app.jobs.running)
     with Image.open(tmp_path / "face.png") as picture:
         assert picture.size == window.app.viewport.size
@@ -361,7 +361,7 @@ def test_the_mesh_exported_is_the_morphed_face(window: Offscreen, tmp_path: Path
     from facemorph.io import read_mesh
 
     window.app.pose = replace(window.app.pose, t=0.5)
-    actions.export_mesh(window.app, tmp_path / "out.obj")
+    files.export_mesh(window.app, tmp_path / "out.obj")
     window.until(lambda: not window.app.jobs.running)
     mesh = read_mesh(tmp_path / "out.obj")
     expected = window.app.face.rig.positions(window.app.pose)

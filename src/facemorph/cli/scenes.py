@@ -46,7 +46,8 @@ def _bilinear(options: argparse.Namespace) -> tuple[Rig, Scene]:
     first, second = ("first", "second") if names[0] != names[1] else ("first", "first")
     controls = _controls(options, rig, PeopleMix({first: 1.0}, second, s))
     bound = BoundControls(rig, first, {second: other})
-    return rig, Scene.moved(pose, bound(pose, controls), Partner(other, s) if first != second else None)
+    partners = [Partner(other, s)] if first != second else []
+    return rig, Scene.moved(pose, bound(pose, controls), partners)
 
 
 def _pair(text: str, what: str) -> tuple[str, str]:

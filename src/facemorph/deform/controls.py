@@ -39,13 +39,17 @@ class EmotionControl:
 
 @dataclass(frozen=True)
 class PeopleControl:
-    """The bilinear pad: s between people, t between two states (2.10); no mix is the face itself."""
+    """The bilinear pad: s between people, t between two states (2.10); no mix is the face itself.
+
+    `skins`: the colours of skin and eyes blend along s too (2.1.2).
+    """
 
     mix: PeopleMix | None = None
     source: State = field(default_factory=dict)
     target: State = field(default_factory=dict)
     t: float = 0.0
     curve: Curve = "linear"
+    skins: bool = True
 
     def weights(self) -> dict[str, float]:
         """Weights by expression at the present t."""

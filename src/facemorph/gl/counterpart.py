@@ -1,12 +1,14 @@
 """`Counterpart`: what another mesh of the same polygons has at each drawn vertex and triangle of a mesh.
 
-The two may differ in their texture coordinates, and in the order of their polygons and where each
-polygon begins. A vertex is drawn once for each set of position, own and other texture coordinate.
+The meshes may differ in their texture coordinates, and in the order of their polygons and where each
+polygon begins. A vertex is drawn once for each set of position, own and others' texture coordinates;
+where the others' are the mesh's own, as between the built-in people, nothing is split further.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -20,35 +22,49 @@ from facemorph.core.triangles import Triangles
 class Counterpart:
     """The other mesh over T triangles and G drawn vertices.
 
-    split    the drawn vertices, split by both meshes' texture coordinates
     uvs      (G, 2) float32 of the other mesh; None where they are the same as the mesh's own
     polygon  (T,) int32, the other mesh's polygon that each triangle is part of
     """
 
     mesh: Mesh
-    split: SplitVertices
     uvs: Float32 | None
     polygon: Int32
 
 
-def counterpart(mesh: Mesh, triangles: Triangles, split: SplitVertices, other: Mesh) -> Counterpart:
-    """`other` over `mesh`, which it corresponds to, given the mesh's triangles and drawn vertices."""
-    corners = corresponding_corners(mesh, other)[triangles.corners]
-    polygon_of = np.repeat(np.arange(other.polygon_count, dtype=np.int32), np.diff(other.polygon_starts))
+def counterparts(
+    mesh: Mesh, triangles: Triangles, split: SplitVertices, others: Sequence[Mesh]
+) -> tuple[SplitVertices, tuple[Counterpart, ...]]:
+    """The drawn vertices of `mesh`, split by everybody's texture coordinates, and each other mesh over them.
+
+    `split` are the vertices as the mesh alone has them; the others correspond to it.
+    """
+    found: list[Counterpart] = []
+    for other in others:
+        corners = corresponding_corners(mesh, other)[triangles.corners]
+        polygon_of = np.repeat(np.arange(other.polygon_count, dtype=np.int32), np.diff(other.polygon_starts))
+        split, parent, uvs = _split_by(split, other, corners)
+        found = [kept if kept.uvs is None else replace(kept, uvs=kept.uvs[parent]) for kept in found]
+        found.append(Counterpart(other, uvs, polygon_of[corners[:, 0]]))
+    return split, tuple(found)
+
+
+def _split_by(
+    split: SplitVertices, other: Mesh, corners: Int64
+) -> tuple[SplitVertices, Int64 | slice, Float32 | None]:
+    """`split` by the other mesh's coordinates at `corners` (T, 3): it, where its vertices were, those."""
     if other.corner_uvs is None or not len(other.uvs):
         uv = np.full(corners.shape, -1, np.int64)
     else:
         uv = other.corner_uvs[corners].astype(np.int64)
-    width = len(other.uvs) + 1
-    pairs, drawn = np.unique(split.triangles.astype(np.int64) * width + (uv + 1), return_inverse=True)
-    parent, uv_of = np.divmod(pairs, width)
+    known = np.concatenate([np.zeros((1, 2), np.float32), other.uvs]).astype(np.float32)
+    if np.array_equal(known[uv + 1], split.uvs[split.triangles]):
+        return split, slice(None), None
+    pairs, drawn = np.unique(split.triangles.astype(np.int64) * len(known) + (uv + 1), return_inverse=True)
+    parent, uv_of = np.divmod(pairs, len(known))
     finer = SplitVertices(
         split.position_of[parent], split.uvs[parent], drawn.reshape(corners.shape).astype(np.int32)
     )
-    uvs = np.concatenate([np.zeros((1, 2), np.float32), other.uvs])[uv_of].astype(np.float32)
-    return Counterpart(
-        other, finer, None if np.array_equal(uvs, finer.uvs) else uvs, polygon_of[corners[:, 0]]
-    )
+    return finer, parent, known[uv_of]
 
 
 def corresponding_corners(mesh: Mesh, other: Mesh) -> Int64:

@@ -6,7 +6,7 @@ is then rejected by depth before it is shaded, and open surfaces still show both
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.gl.backdrop import Backdrop
-from facemorph.gl.colours import OWN_UNIT, PARTNER_UNIT, Source, blended_opacity, source_of
+from facemorph.gl.colours import FIRST_PARTNER_UNIT, OWN_UNIT, Source, blended_opacity, source_of
 from facemorph.gl.heat import ramp
 from facemorph.gl.lights import Lights
 from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
@@ -47,7 +47,7 @@ class Painter:
         self._ramp: moderngl.Texture | None = None
         self._assigned: set[int] = set()
         self._glowing = False
-        self._share = 0.0
+        self._shares: tuple[float, ...] = (1.0,)
 
     def paint(
         self,
@@ -58,14 +58,16 @@ class Painter:
         size: tuple[int, int],
         *,
         glowing: bool = False,
-        share: float = 0.0,
+        shares: Sequence[float] = (),
     ) -> None:
         """Fill `framebuffer` with the face as `look` wants it.
 
         glowing   whether the surface's `glow` lights it up, in shadings that have light
-        share     how much of the colours is the partner's, 0..1
+        shares    of the colours: the face's own and those of each of the surface's partners, together 1;
+                  all its own where they are left out
         """
-        self._glowing, self._share = glowing, share if surface.partner is not None else 0.0
+        self._glowing = glowing
+        self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
         scene = self._scene(camera, look, size)
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
@@ -85,7 +87,7 @@ class Painter:
             self._draw_wire(surface, scene)
 
     def _opacity(self, part: Part) -> float:
-        return blended_opacity(part.material, part.partner, self._share)
+        return blended_opacity((part.material, *part.partners), self._shares)
 
     def _scene(self, camera: Camera, look: Look, size: tuple[int, int]) -> dict[str, object]:
         """The uniforms that every part of the picture shares."""
@@ -99,8 +101,9 @@ class Painter:
             "ramp": 0,
             "albedo_texture": OWN_UNIT,
             "polygon_edges": 1,
-            "partner_texture": PARTNER_UNIT,
-            "partner_share": self._share,
+            "own_share": self._shares[0],
+            **{f"partner{i}_share": share for i, share in enumerate(self._shares[1:])},
+            **{f"partner{i}_texture": FIRST_PARTNER_UNIT + i for i in range(len(self._shares) - 1)},
             "glow_colour": GLOW_COLOUR,
             **self._lights.uniforms(camera),
         }
@@ -127,11 +130,12 @@ class Painter:
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""
         own = source_of(part.material, surface.mesh, self.textures)
-        partner = None
-        if self._share > 0.0 and part.partner is not None and surface.partner is not None:
-            partner = source_of(part.partner, surface.partner, self.textures).as_stored()
+        partners: list[Source] = []
+        if any(self._shares[1:]):
             own = own.as_stored()
-        self._draw_lit(surface, part, scene, finish_of(part.material), own, partner)
+            others = zip(part.partners, surface.partners, strict=True)
+            partners = [source_of(material, mesh, self.textures).as_stored() for material, mesh in others]
+        self._draw_lit(surface, part, scene, finish_of(part.material), own, partners)
 
     def _draw_lit(
         self,
@@ -140,7 +144,7 @@ class Painter:
         scene: Uniforms,
         finish: Finish,
         source: Source,
-        partner: Source | None = None,
+        partners: Sequence[Source] = (),
     ) -> None:
         define = source.defines()
         if source.texture is not None:
@@ -156,20 +160,22 @@ class Painter:
             "matte": finish.matte,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
-        if partner is not None:
-            define += ["PARTNER", *partner.defines("PARTNER_")]
+        if partners:
+            define.append(f"PARTNERS {len(partners)}")
+            own["stored_colour"] = source.stored
+        for i, partner in enumerate(partners):
+            define += partner.defines(f"PARTNER{i}_")
             # Textures of one set of coordinates are looked up at one.
             if partner.texture is not None:
-                partner.texture.use(PARTNER_UNIT)
-                if not (surface.shares_uvs and source.texture is not None):
-                    define.append("PARTNER_UV")
+                partner.texture.use(FIRST_PARTNER_UNIT + i)
+                if not (surface.shares_uvs(i) and source.texture is not None):
+                    define.append(f"PARTNER{i}_UV")
             own |= {
-                "stored_colour": source.stored,
-                "partner_stored_colour": partner.stored,
-                "partner_albedo": tuple(value * finish.shade for value in partner.factor),
-                "partner_opacity": partner.opacity,
+                f"partner{i}_stored_colour": partner.stored,
+                f"partner{i}_albedo": tuple(value * finish.shade for value in partner.factor),
+                f"partner{i}_opacity": partner.opacity,
             }
-        if source.cut_out or (partner is not None and partner.cut_out):
+        if any(one.cut_out for one in (source, *partners)):
             define.append("CUTOUT")
         if self._glowing:
             define.append("GLOW")

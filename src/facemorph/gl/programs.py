@@ -1,10 +1,16 @@
-"""GLSL programs from the files in `shaders/`: `#include`, definitions, and errors that name file and line."""
+"""GLSL programs from the files in `shaders/`: `#include`, definitions, and errors that name file and line.
+
+GLSL 3.3 cannot loop over textures. What a shader does for each of a number of them stands between
+`#repeat NAME` and `#end`, once: it is written out as often as the definition `NAME COUNT` says (not at all
+without one), with the number, from 0 on, in place of each `@`.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +20,7 @@ from facemorph.resources import data_folder
 if TYPE_CHECKING:
     import moderngl
 
+_REPEAT = re.compile(r"\s*#repeat\s+(\w+)\s*$")
 _INCLUDE = re.compile(r'\s*#include\s+"([^"]+)"\s*$')
 # Mesa and Intel say 0:12(5), NVIDIA 0(12), Apple and AMD "ERROR: 0:12".
 _PLACE = re.compile(r"\b0[:(](\d+)\)?[^\n]*")
@@ -84,7 +91,8 @@ class Programs:
 def read_source(folder: Path, name: str, define: Sequence[str] = ()) -> Source:
     """The shader `name` of `folder`, `#include "..."` resolved from the folder's top, each file once.
 
-    `define` adds `#define NAME` after the version line. Raises `GraphicsError` on a missing file.
+    `define` adds `#define NAME`, or `#define NAME COUNT`, after the version line. Raises `GraphicsError`
+    on a missing file.
     """
     lines: list[str] = []
     origin: list[tuple[str, int]] = []
@@ -94,7 +102,7 @@ def read_source(folder: Path, name: str, define: Sequence[str] = ()) -> Source:
         if wanted in seen:
             return
         seen.add(wanted)
-        for number, line in enumerate(_lines_of(folder, wanted, asked_by), start=1):
+        for number, line in _repeated(_lines_of(folder, wanted, asked_by), define):
             included = _INCLUDE.match(line)
             if included:
                 take(included[1], f"{wanted}:{number}")
@@ -108,6 +116,20 @@ def read_source(folder: Path, name: str, define: Sequence[str] = ()) -> Source:
 
     take(name, "")
     return Source("\n".join(lines) + "\n", tuple(origin))
+
+
+def _repeated(lines: Sequence[str], define: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """The lines with their numbers from 1 on, what is to be repeated written out."""
+    counts = dict(switch.split() for switch in define if " " in switch)
+    numbered = iter(enumerate(lines, start=1))
+    for number, line in numbered:
+        block = _REPEAT.match(line)
+        if not block:
+            yield number, line
+            continue
+        inside = list(takewhile(lambda item: item[1].strip() != "#end", numbered))
+        for i in range(int(counts.get(block[1], "0"))):
+            yield from ((n, text.replace("@", str(i))) for n, text in inside)
 
 
 def _lines_of(folder: Path, name: str, asked_by: str) -> list[str]:

@@ -13,7 +13,7 @@ twice a frame. The rig's arrays are shared; what is there twice is the buffers o
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, Protocol
 
@@ -26,7 +26,7 @@ from facemorph.core.lengths import displacements
 from facemorph.core.picture import Look, checked_size
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
-from facemorph.core.scene import Partner, Scene
+from facemorph.core.scene import Partner, Scene, colour_shares
 from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
@@ -159,9 +159,9 @@ class Renderer:
         """Draw `what` seen by `camera` at `size` pixels (width, height) into the own framebuffer.
 
         A scene's arrays are uploaded when they are others than in the frame before. Its `glow` shows in
-        the shadings skin, clay and wire, its `reference` in heat, its partner in skin; the partner's s
-        outside 0..1 is taken for the nearer end. Another partner rebuilds what is drawn of the mesh once,
-        another s nothing.
+        the shadings skin, clay and wire, its `reference` in heat, its partners in skin, with weights
+        kept from 0 to 1 as `colour_shares` does. Other partners rebuild what is drawn of the mesh once (so
+        keep those of weight 0 listed while a weight is dragged), other weights nothing.
 
         quality   "fast" leaves out antialiasing where OpenGL runs on the CPU (it doubles the frame
                   there): for frames while something moves; "full" for still ones and pictures
@@ -179,15 +179,22 @@ class Renderer:
         hurried = quality == "fast" and self.graphics.software
         samples = 0 if hurried else min(SAMPLES, self.graphics.max_samples)
         try:
-            surface = self._surface_for(scene.partner)
+            surface = self._surface_for(scene.partners)
             self._update(scene, rig, exactly=exactly)
             look = self._with_heat_end(look, scene, rig)
             if scene.glow is not None:
                 surface.give("glow", scene.glow)
             framebuffer = self._target.prepare(size, samples)
-            share = min(max(scene.partner.s, 0.0), 1.0) if scene.partner else 0.0
-            glowing = scene.glow is not None
-            self._painter.paint(framebuffer, surface, camera, look, size, glowing=glowing, share=share)
+            shares = colour_shares(rig.neutral, scene.partners)
+            self._painter.paint(
+                framebuffer,
+                surface,
+                camera,
+                look,
+                size,
+                glowing=scene.glow is not None,
+                shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *surface.partners)],
+            )
             self._target.finish(framebuffer)
         finally:
             self._painter.restore(outer)
@@ -222,17 +229,22 @@ class Renderer:
             raise GraphicsError("no face is loaded; call load first.")
         return self._rig, self._surface
 
-    def _surface_for(self, partner: Partner | None) -> Surface:
-        """The surface to draw: with the partner's colours from when it is first asked for."""
+    def _surface_for(self, partners: Sequence[Partner]) -> Surface:
+        """The surface to draw: with the partners' colours from when they are first asked for."""
         rig, surface = self._loaded()
-        if partner is None or partner.rig.neutral is surface.partner:
+        others = {p.rig.neutral: p.rig for p in partners if p.rig.neutral is not rig.neutral}
+        if not others or others.keys() == set(surface.partners):
             return surface
-        made = partner_surface(self.ctx, rig, surface, partner.rig)
+        made = partner_surface(self.ctx, rig, surface, tuple(others.values()))
         assert self._morph is not None
         self._morph.bind(made)
         surface.release()
         self._surface, self._shown = made, None
-        self._painter.textures.keep(made.texture_paths())
+        textures = self._painter.textures
+        textures.keep(made.texture_paths())
+        # Read now, when people are chosen, and not under the pointer when a weight is first dragged.
+        for material in {material for part in made.parts for material in part.partners}:
+            textures.of(material)
         self.stats.partners += 1
         return made
 

@@ -1,15 +1,16 @@
-"""Scenes are checked against the rig before anything is drawn of them; a partner gets its surface."""
+"""Scenes are checked against the rig before anything is drawn of them; partners get their surface."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from facemorph.core.correspondence import difference
 from facemorph.core.rig import Rig
-from facemorph.core.scene import Scene
+from facemorph.core.scene import MOST_PARTNERS, Scene
 from facemorph.errors import CorrespondenceError, MeshDataError, PoseError
 from facemorph.gl.surface import Surface
 
@@ -20,7 +21,8 @@ if TYPE_CHECKING:
 def checked_scene(scene: Scene, rig: Rig) -> Scene:
     """`scene` if it fits `rig`.
 
-    Raises `MeshDataError` for arrays of another shape, `PoseError` for values that are no numbers.
+    Raises `MeshDataError` for arrays of another shape, `PoseError` for values that are no numbers and for
+    more partners than can be drawn.
     """
     count = rig.neutral.vertex_count
     for name, array, shape in (
@@ -34,18 +36,23 @@ def checked_scene(scene: Scene, rig: Rig) -> Scene:
             raise MeshDataError(f"a scene's {name} for this face must be {shape}, not {array.shape}.")
         if not np.isfinite(array).all():
             raise PoseError(f"a scene's {name} must be finite numbers; some are infinite or not a number.")
-    if scene.partner is not None and not math.isfinite(scene.partner.s):
-        raise PoseError(f"the partner's s must be a number, not {scene.partner.s}.")
+    weights = [partner.weight for partner in scene.partners]
+    if not math.isfinite(sum(abs(weight) for weight in weights)):
+        raise PoseError(f"the partners' weights must be numbers, not {', '.join(map(str, weights))}.")
+    people = len({partner.rig for partner in scene.partners if partner.rig is not rig})
+    if people > MOST_PARTNERS:
+        raise PoseError(f"the colours of at most {MOST_PARTNERS} other people can be mixed, not of {people}.")
     return scene
 
 
-def partner_surface(ctx: moderngl.Context, rig: Rig, surface: Surface, partner: Rig) -> Surface:
-    """A surface of `rig` that carries the partner's texture coordinates and colours beside its own.
+def partner_surface(ctx: moderngl.Context, rig: Rig, surface: Surface, partners: Sequence[Rig]) -> Surface:
+    """A surface of `rig` that carries the partners' texture coordinates and colours beside its own.
 
-    Raises `CorrespondenceError` where the partner has other polygons.
+    Raises `CorrespondenceError` where a partner has other polygons.
     """
-    unlike = difference(rig.neutral, partner.neutral)
-    if unlike is not None:
-        hint = "Colours are mixed between faces of one topology only; the built-in people are."
-        raise CorrespondenceError(partner.info.name, unlike.problem, cause=unlike.cause, hint=hint)
-    return Surface(ctx, rig.neutral, partner.neutral, kin=surface)
+    for partner in partners:
+        unlike = difference(rig.neutral, partner.neutral)
+        if unlike is not None:
+            hint = "Colours are mixed between faces of one topology only; the built-in people are."
+            raise CorrespondenceError(partner.info.name, unlike.problem, cause=unlike.cause, hint=hint)
+    return Surface(ctx, rig.neutral, [partner.neutral for partner in partners], kin=surface)

@@ -5,6 +5,7 @@ The morphed positions and normals live in one buffer, which a morph path fills a
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from facemorph.core.arrays import Float32, Int32, Int64, UInt8
 from facemorph.core.mesh import Material, Mesh
 from facemorph.core.split import split_vertices
 from facemorph.core.triangles import Triangles, triangulated
-from facemorph.gl.counterpart import counterpart
+from facemorph.gl.counterpart import counterparts
 from facemorph.gl.hem import Hem, hem_of
 from facemorph.gl.materials import PLAIN
 
@@ -27,34 +28,33 @@ MORPHED_BYTES = 24  # position and normal, three float32 each
 # What else shaders may ask of a drawn vertex, and how its buffer holds it.
 _FORMS = {
     "uv": "2f",
-    "partner_uv": "2f",
     "colour": "3f1",
-    "partner_colour": "3f1",
     "reference": "3f",
     "glow": "1f",
     "kept": "1f",
 }
+_OF_PARTNER = re.compile(r"partner(\d+)_(uv|colour)")
 
 
 @dataclass(frozen=True)
 class Part:
     """A run of triangles drawn alike: material, first triangle, how many, whether they fade at the hem.
 
-    `partner` is the partner's material there; None for a surface without a partner.
+    `partners` are the partners' materials there.
     """
 
     material: Material
     first: int
     count: int
     in_hem: bool
-    partner: Material | None = None
+    partners: tuple[Material, ...] = ()
 
 
 class Surface:
     """G drawn vertices and T triangles of a mesh of V positions.
 
-    With `partner`, a mesh of the same polygons, the vertices carry that one's texture coordinates and
-    colours too; `kin` is a surface of the same mesh, whose triangles and hem are taken over.
+    With `partners`, meshes of the same polygons, the vertices carry their texture coordinates and colours
+    too; `kin` is a surface of the same mesh, whose triangles and hem are taken over.
 
     position_of  (G,) int32, the position each drawn vertex is a copy of
     order        (T,) the mesh's triangles in the order they are drawn
@@ -62,19 +62,16 @@ class Surface:
     """
 
     def __init__(
-        self, ctx: moderngl.Context, mesh: Mesh, partner: Mesh | None = None, *, kin: Surface | None = None
+        self, ctx: moderngl.Context, mesh: Mesh, partners: Sequence[Mesh] = (), *, kin: Surface | None = None
     ) -> None:
         self._ctx = ctx
-        self.mesh, self.partner = mesh, partner
+        self.mesh, self.partners = mesh, tuple(partners)
         self.triangles: Triangles = kin.triangles if kin else triangulated(mesh)
         self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices)
-        split = split_vertices(mesh, self.triangles)
+        split, others = counterparts(mesh, self.triangles, split_vertices(mesh, self.triangles), partners)
         materials = [_materials(mesh, self.triangles.polygon)]
-        self._partner_uvs: Float32 | None = None
-        if partner is not None:
-            other = counterpart(mesh, self.triangles, split, partner)
-            split, self._partner_uvs = other.split, other.uvs
-            materials.append(_materials(partner, other.polygon))
+        materials += [_materials(other.mesh, other.polygon) for other in others]
+        self._partner_uvs = [other.uvs for other in others]
         self.position_of: Int32 = split.position_of
         self.drawn_count = len(split.position_of)
         self.triangle_count = len(split.triangles)
@@ -98,15 +95,15 @@ class Surface:
         wanted = [name for name in ("position", "normal") if name in program]
         layout = {1: "3f 12x", 2: "3f 3f"}[len(wanted)]
         content: list[tuple[object, ...]] = [(self.morphed, layout, *wanted)]
-        for name, form in _FORMS.items():
+        of_partners = [f"partner{i}_{kind}" for i in range(len(self.partners)) for kind in ("uv", "colour")]
+        for name in (*_FORMS, *of_partners):
             if name in program:
-                content.append((self._buffer(name), form, name))
+                content.append((self._buffer(name), _FORMS[name.rpartition("_")[2]], name))
         return content
 
-    @property
-    def shares_uvs(self) -> bool:
-        """Whether the partner's texture coordinates are the mesh's own."""
-        return self._partner_uvs is None
+    def shares_uvs(self, partner: int) -> bool:
+        """Whether the texture coordinates of that one of the partners are the mesh's own."""
+        return self._partner_uvs[partner] is None
 
     def give(self, name: str, values: Float32) -> None:
         """Set `glow` (V,) or `reference` (V, 3); the array that was given last is not uploaded again."""
@@ -131,8 +128,6 @@ class Surface:
             return self._drawn_values(self._given[name])
         if name == "uv":
             return self._uvs
-        if name == "partner_uv":
-            return self._uvs if self._partner_uvs is None else self._partner_uvs
         if name == "reference":
             return self.mesh.positions[self.position_of]
         if name == "glow":
@@ -140,15 +135,22 @@ class Surface:
         if name == "kept":
             kept = self.hem.kept if self.hem else np.ones(self.mesh.vertex_count, np.float32)
             return kept[self.position_of]
-        whose = self.partner if name == "partner_colour" else self.mesh
-        colours = None if whose is None else whose.colours
+        whose, kind = self.mesh, name
+        of_partner = _OF_PARTNER.match(name)
+        if of_partner:
+            i, kind = int(of_partner[1]), of_partner[2]
+            whose = self.partners[i]
+        if kind == "uv":
+            uvs = self._partner_uvs[i]
+            return self._uvs if uvs is None else uvs
+        colours = whose.colours
         if colours is None:
             return np.full((self.drawn_count, 3), 255, np.uint8)
         return (np.clip(colours[self.position_of], 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
     def texture_paths(self) -> set[Path]:
-        """The textures that its materials, and its partner's, name."""
-        materials = [m for part in self.parts for m in (part.material, part.partner) if m is not None]
+        """The textures that its materials, and its partners', name."""
+        materials = [material for part in self.parts for material in (part.material, *part.partners)]
         return {material.texture for material in materials if material.texture is not None}
 
     def polygon_edges(self) -> moderngl.Texture:
@@ -192,23 +194,22 @@ _OfTriangles = tuple[Sequence[Material], Int64]
 def _parts(materials: Sequence[_OfTriangles], hem: Hem | None) -> tuple[tuple[Part, ...], Int64]:
     """The runs to draw, opaque ones first, and the order of triangles that makes them.
 
-    `materials` are the mesh's own and, where there is one, the partner's.
+    `materials` are the mesh's own and then each partner's.
     """
     own, of_triangle = materials[0]
     in_hem = np.zeros(len(of_triangle), bool) if hem is None else hem.triangles
     see_through = np.array([material.opacity < 1.0 for material in own])
     key = (see_through[of_triangle].astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
-    partners: Sequence[Material | None] = (None,)
-    if len(materials) > 1:
-        partners, partner_of = materials[1]
-        key = key * len(partners) + partner_of
+    for known, of_partner in materials[1:]:
+        # Numbered anew each time: products of many people's counts of materials would overflow.
+        key = np.unique(key, return_inverse=True)[1] * len(known) + of_partner
     order = np.argsort(key, kind="stable")
-    found, first, count = np.unique(key[order], return_index=True, return_counts=True)
+    _, first, count = np.unique(key[order], return_index=True, return_counts=True)
     parts = []
-    for k, start, number in zip(found.tolist(), first.tolist(), count.tolist(), strict=True):
-        group, p = divmod(k, len(partners))
-        hemmed, m = divmod(group, len(own))
-        parts.append(Part(own[m], start, number, bool(hemmed % 2), partners[p]))
+    for start, number in zip(first.tolist(), count.tolist(), strict=True):
+        triangle = order[start]
+        material, *partners = (known[index[triangle]] for known, index in materials)
+        parts.append(Part(material, start, number, bool(in_hem[triangle]), tuple(partners)))
     return tuple(parts), order
 
 

@@ -7,6 +7,7 @@ from facemorph.io.load import load_rig
 from facemorph.io.obj_write import write_obj
 from facemorph.io.png import write_png
 from facemorph.io.read import read_mesh
+from facemorph.io.regions_file import read_regions, write_regions
 from facemorph.io.repair import Repair, repair_folder
 from facemorph.io.report import Finding, Report
 
@@ -19,8 +20,10 @@ __all__ = [
     "read_face_info",
     "read_handles",
     "read_mesh",
+    "read_regions",
     "repair_folder",
     "write_handles",
     "write_obj",
     "write_png",
+    "write_regions",
 ]

@@ -50,6 +50,38 @@ def read_npz(path: Path, needed: Sequence[str], optional: Sequence[str] = (), li
         raise NpzError(f"cannot be read: {reason(error)}") from error
 
 
+def whole(arrays: Arrays, name: str) -> int:
+    """The array `name` as the one whole number that it must hold. Raises `NpzError`."""
+    array = arrays[name]
+    if array.size != 1 or array.dtype.kind not in "iu":
+        raise NpzError(f"must hold one whole number as {name!r}")
+    return int(array.reshape(-1)[0])
+
+
+def texts(arrays: Arrays, name: str, most: int) -> tuple[str, ...]:
+    """The array `name` as a list of at most `most` texts. Raises `NpzError`."""
+    array = arrays[name]
+    if array.ndim != 1 or array.dtype.kind != "U" or len(array) > most:
+        raise NpzError(f"must hold a list of at most {most:,} texts as {name!r}")
+    try:
+        return tuple(str(text) for text in array)
+    except ValueError as error:
+        raise NpzError(f"holds no text as {name!r}") from error
+
+
+def table(arrays: Arrays, name: str, kinds: str, shape: tuple[int | None, ...]) -> NDArray[Any]:
+    """The array `name`, of one of the dtype kinds and of the shape, where None stands for any length.
+
+    Raises `NpzError`.
+    """
+    array = arrays[name]
+    fits = array.ndim == len(shape) and all(n in (None, m) for n, m in zip(shape, array.shape, strict=True))
+    if array.dtype.kind not in kinds or not fits:
+        wanted = tuple("any" if n is None else n for n in shape)
+        raise NpzError(f"must hold {wanted} as {name!r}, not {array.shape} {array.dtype}")
+    return array
+
+
 def _array(file: BinaryIO, name: str, limit: int) -> NDArray[Any]:
     version = npy.read_magic(file)
     if version not in ((1, 0), (2, 0)):

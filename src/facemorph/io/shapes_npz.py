@@ -13,17 +13,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from facemorph.core.arrays import Float32
 from facemorph.core.rig import Regions, Shape
 from facemorph.errors import FaceFolderError
 from facemorph.io.face_set import check_size
 from facemorph.io.limits import SHAPES
-from facemorph.io.npz import Arrays, NpzError, read_npz
+from facemorph.io.npz import Arrays, NpzError, read_npz, table, texts, whole
 
 _REGIONS = 1_024
 _NEEDED = ("format", "vertices", "names", "labels", "sets", "starts", "index", "delta", "scale")
@@ -43,7 +41,7 @@ def read_shapes(path: Path, vertex_count: int) -> MoreShapes:
     """The shapes in `path` for a neutral of `vertex_count` vertices. Raises `FaceFolderError`."""
     try:
         arrays = read_npz(path, _NEEDED, _OPTIONAL)
-        version, vertices = _whole(arrays, "format"), _whole(arrays, "vertices")
+        version, vertices = whole(arrays, "format"), whole(arrays, "vertices")
         if version != 1:
             raise NpzError(f"is of format {version}; this version of facemorph reads 1")
         if vertices != vertex_count:
@@ -56,17 +54,17 @@ def read_shapes(path: Path, vertex_count: int) -> MoreShapes:
 
 
 def _shapes(arrays: Arrays) -> tuple[Shape, ...]:
-    names, labels, sets = (_texts(arrays, name, SHAPES) for name in ("names", "labels", "sets"))
+    names, labels, sets = (texts(arrays, name, SHAPES) for name in ("names", "labels", "sets"))
     if not len(names) == len(labels) == len(sets):
         raise NpzError(f"has {len(names)} names, {len(labels)} labels and {len(sets)} sets")
     return tuple(Shape(*three) for three in zip(names, labels, sets, strict=True))
 
 
 def _deltas(arrays: Arrays, k: int, vertices: int) -> Float32:
-    starts = _table(arrays, "starts", "iu", (k + 1,)).astype(np.int64)
-    index = _table(arrays, "index", "iu", (None,))
-    delta = _table(arrays, "delta", "i", (len(index), 3))
-    scale = _table(arrays, "scale", "f", (k,)).astype(np.float32)
+    starts = table(arrays, "starts", "iu", (k + 1,)).astype(np.int64)
+    index = table(arrays, "index", "iu", (None,))
+    delta = table(arrays, "delta", "i", (len(index), 3))
+    scale = table(arrays, "scale", "f", (k,)).astype(np.float32)
     if int(starts[0]) != 0 or int(starts[-1]) != len(index) or bool((np.diff(starts) < 0).any()):
         raise NpzError(f"has starts that do not rise from 0 to {len(index):,}")
     if len(index) and not 0 <= int(index.min()) <= int(index.max()) < vertices:
@@ -83,35 +81,8 @@ def _deltas(arrays: Arrays, k: int, vertices: int) -> Float32:
 def _regions(arrays: Arrays, vertices: int) -> Regions | None:
     if not all(name in arrays for name in _OPTIONAL):
         return None
-    names = _texts(arrays, "region_names", _REGIONS)
-    weights = _table(arrays, "region_weights", "u", (len(names), vertices))
+    names = texts(arrays, "region_names", _REGIONS)
+    weights = table(arrays, "region_weights", "u", (len(names), vertices))
     if weights.dtype != np.uint8 or bool((weights.sum(axis=0, dtype=np.int64) > 255).any()):
         raise NpzError("has region_weights that are not uint8, or more than 255 summed over the regions")
     return Regions(names, weights)
-
-
-def _whole(arrays: Arrays, name: str) -> int:
-    array = arrays[name]
-    if array.size != 1 or array.dtype.kind not in "iu":
-        raise NpzError(f"must hold one whole number as {name!r}")
-    return int(array.reshape(-1)[0])
-
-
-def _texts(arrays: Arrays, name: str, most: int) -> tuple[str, ...]:
-    array = arrays[name]
-    if array.ndim != 1 or array.dtype.kind != "U" or len(array) > most:
-        raise NpzError(f"must hold a list of at most {most:,} texts as {name!r}")
-    try:
-        return tuple(str(text) for text in array)
-    except ValueError as error:
-        raise NpzError(f"holds no text as {name!r}") from error
-
-
-def _table(arrays: Arrays, name: str, kinds: str, shape: tuple[int | None, ...]) -> NDArray[Any]:
-    """The array `name`, of one of the dtype kinds and of the shape, where None stands for any length."""
-    array = arrays[name]
-    fits = array.ndim == len(shape) and all(n in (None, m) for n, m in zip(shape, array.shape, strict=True))
-    if array.dtype.kind not in kinds or not fits:
-        wanted = tuple("any" if n is None else n for n in shape)
-        raise NpzError(f"must hold {wanted} as {name!r}, not {array.shape} {array.dtype}")
-    return array

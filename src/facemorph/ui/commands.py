@@ -17,7 +17,7 @@ from facemorph.core.morph import CURVES
 from facemorph.core.picture import SHADINGS
 from facemorph.core.pose import NEUTRAL, state_of
 from facemorph.core.rig import plain_label
-from facemorph.ui import actions
+from facemorph.ui import actions, files
 from facemorph.ui.chord import Chord
 from facemorph.ui.state import App
 from facemorph.ui.words import NEUTRAL_LABEL
@@ -220,14 +220,14 @@ def _opening(app: App) -> tuple[Command, ...]:
     builtin = [
         Command(
             plain_label(name),
-            partial(actions.open_builtin, name=name),
+            partial(files.open_builtin, name=name),
             "File/Built-in faces",
             checked=partial(_builtin_is, name),
         )
         for name in app.builtins
     ]
     recent = [
-        Command(_recent_title(source), partial(actions.open_source, source=tuple(source)), "File/Open recent")
+        Command(_recent_title(source), partial(files.open_source, source=tuple(source)), "File/Open recent")
         for source in app.settings.recent
     ]
     return (*builtin, *recent)

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from facemorph.ui.actions import MESH_SUFFIXES
+from facemorph.ui.files import MESH_SUFFIXES
 
 _HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
 TITLES = {
@@ -17,6 +17,12 @@ TITLES = {
     "mesh": "Export mesh",
     "open points": "Open points",
     "save points": "Save points",
+    "person": "Another face",
+    "person folder": "Folder of another face",
+    "open regions": "Open regions",
+    "save regions": "Save regions",
+    "open path": "Open path",
+    "save path": "Save path",
 }
 
 
@@ -37,16 +43,22 @@ class NativeDialog:
         title = TITLES[purpose]
         meshes = ["Meshes", " ".join(f"*{suffix}" for suffix in MESH_SUFFIXES), "All files", "*"]
         self._dialog: Any
-        points = ["Points", "*.json"]
-        if purpose == "open points":
-            self._dialog = pfd.open_file(title, str(path.parent), points, pfd.opt.none)
-        elif purpose == "open":
+        kinds = {
+            "picture": ["PNG pictures", "*.png"],
+            "mesh": ["OBJ meshes", "*.obj"],
+            "points": ["Points", "*.json"],
+            "regions": ["Regions", "*.npz"],
+            "path": ["Paths", "*.json"],
+        }
+        action, _, what = purpose.rpartition(" ")
+        if action == "open":
+            self._dialog = pfd.open_file(title, str(path.parent), kinds[what], pfd.opt.none)
+        elif purpose in ("open", "person"):
             self._dialog = pfd.open_file(title, str(path.parent), meshes, pfd.opt.multiselect)
-        elif purpose == "folder":
+        elif purpose in ("folder", "person folder"):
             self._dialog = pfd.select_folder(title, str(path.parent))
         else:
-            kinds = {"picture": ["PNG pictures", "*.png"], "mesh": ["OBJ meshes", "*.obj"]}
-            self._dialog = pfd.save_file(title, str(path), kinds.get(purpose, points))
+            self._dialog = pfd.save_file(title, str(path), kinds[what])
 
     def answer(self) -> list[str] | None:
         """What was chosen, [] if nothing, None while the dialog is open."""

@@ -10,13 +10,16 @@ from facemorph.core.arrays import Float32
 from facemorph.core.glow import glow_of
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
-from facemorph.core.scene import Partner, Scene
+from facemorph.core.scene import MOST_PARTNERS, Partner, Scene
 from facemorph.deform.controls import METHODS, BoundControls, Controls
 from facemorph.deform.regions import RegionSet
 from facemorph.errors import FacemorphError
 
 if TYPE_CHECKING:
     from facemorph.ui.state import App
+
+# What the present face is called in a mixture of people, whatever its own name: names of others may be alike.
+OWN = "this face"
 
 
 @dataclass
@@ -39,7 +42,7 @@ class Methods:
         """What to draw now. A method that cannot do what it is set to is switched off, and says why."""
         if app.face is None:
             return Scene(app.pose)
-        self._bind(app.face.rig, app.face.title, app.painted)
+        self._bind(app.face.rig, app.painted)
         key = (app.face, app.shown_pose, app.controls, tuple(self.people))
         if self._scene is None or key != self._key:
             self._scene, self._key = self._made(app, app.shown_pose), key
@@ -49,15 +52,19 @@ class Methods:
     def bound(self, app: App) -> BoundControls:
         """The methods bound to the present face, which must be there."""
         assert app.face is not None
-        return self._bind(app.face.rig, app.face.title, app.painted)
+        return self._bind(app.face.rig, app.painted)
+
+    def made(self, bound: BoundControls, pose: Pose, controls: Controls) -> Scene:
+        """The scene of a pose with any settings. Raises what the methods raise."""
+        return Scene.moved(pose, bound(pose, controls), self._partners(bound.rig, controls))
 
     def forget(self) -> None:
         """Nothing of what was bound holds any longer: people were loaded, or regions painted."""
         self._bound, self._key = None, ()
 
-    def _bind(self, rig: Rig, name: str, painted: RegionSet | None) -> BoundControls:
+    def _bind(self, rig: Rig, painted: RegionSet | None) -> BoundControls:
         if self._bound is None or self._bound.rig is not rig or self._painted is not painted:
-            self._bound, self._painted = BoundControls(rig, name, self.people, painted), painted
+            self._bound, self._painted = BoundControls(rig, OWN, self.people, painted), painted
             self._key = ()
         return self._bound
 
@@ -65,8 +72,7 @@ class Methods:
         assert self._bound is not None
         while True:
             try:
-                contribution = self._bound(pose, app.controls)
-                return Scene.moved(pose, contribution, self._partner(app.controls))
+                return self.made(self._bound, pose, app.controls)
             except FacemorphError as error:
                 failing = self._failing(pose, app.controls)
                 if failing == "":
@@ -83,22 +89,22 @@ class Methods:
                 self._bound(pose, alone)
             except FacemorphError:
                 return method
-        return ""
+        # Somebody in the mixture lacks what another method asks for.
+        mixing = controls.on("people") and controls.people.mix is not None
+        return "people" if mixing else ""
 
     def _tell(self, app: App, method: str, error: FacemorphError) -> None:
         app.messages.fail(f"{tab_title(method)} is switched off. {error}")
 
-    def _partner(self, controls: Controls) -> Partner | None:
-        """Whose colours are mixed in: the other person with the greatest weight."""
+    def _partners(self, rig: Rig, controls: Controls) -> list[Partner]:
+        """Whose colours are mixed in, as the people are mixed; those of weight 0 too, who may get some."""
         mix = controls.people.mix
-        if mix is None or not controls.on("people"):
-            return None
-        weights = {name: w for name, w in mix.weights().items() if name in self.people and w > 0.0}
-        if not weights:
-            return None
-        name = max(weights, key=lambda other: weights[other])
-        own = max(1.0 - sum(weights.values()), 0.0)
-        return Partner(self.people[name], weights[name] / (weights[name] + own))
+        if mix is None or not controls.on("people") or not controls.people.skins:
+            return []
+        weights = mix.weights()
+        others = {n: self.people[n] for n in (*mix.source, mix.target) if n in self.people}
+        partners = [Partner(other, weights.get(n, 0.0)) for n, other in others.items() if other is not rig]
+        return sorted(partners, key=lambda partner: -partner.weight)[:MOST_PARTNERS]
 
     def _lit(self, rig: Rig) -> Float32 | None:
         """Where the face lights up for the hovered slider."""

@@ -1,9 +1,10 @@
-"""What can be done with regions: their controls, and the brush that paints them. Free of mouse and panels."""
+"""What can be done with regions: controls, the brush that paints them, files. Free of mouse and panels."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from facemorph.core.pose import NEUTRAL, State, state_of
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.deform.regions import RegionControl, RegionSet, painted
 from facemorph.deform.sides import midline
+from facemorph.errors import FacemorphError
+from facemorph.ui.actions import tell_error
 from facemorph.ui.state import App
 
 NAMES = ("brows", "eyes", "nose", "cheeks", "mouth", "jaw")
@@ -24,9 +27,10 @@ def region_set(app: App) -> RegionSet | None:
     return None if app.rig.regions is None else RegionSet.of(app.rig)
 
 
-def names(rig: Rig) -> tuple[str, ...]:
-    """What the face's regions are called; a face without gets Parke's."""
-    return NAMES if rig.regions is None else rig.regions.names
+def names(app: App) -> tuple[str, ...]:
+    """What the regions in use are called; a face without any gets Parke's."""
+    present = region_set(app)
+    return NAMES if present is None else present.names
 
 
 def control(app: App, rig: Rig, name: str) -> RegionControl:
@@ -75,7 +79,7 @@ def state_name(state: State) -> str:
 def begin_stroke(app: App, rig: Rig) -> None:
     """The brush is set down: paint on a copy until it is lifted."""
     present = region_set(app)
-    empty = np.zeros((len(names(rig)), rig.neutral.vertex_count), np.float32)
+    empty = np.zeros((len(names(app)), rig.neutral.vertex_count), np.float32)
     app.lab.regions.stroke = empty if present is None else present.weights.copy()
 
 
@@ -88,15 +92,55 @@ def dab(app: App, rig: Rig, positions: Float32, centre: Float64) -> None:
         image = centre * (-1.0, 1.0, 1.0) + (2.0 * midline(rig), 0.0, 0.0)
         brush = np.maximum(brush, soft_disc(positions, image, page.radius))
     signed = brush * np.float32(-page.strength if page.takes else page.strength)
-    page.stroke = painted(page.stroke, names(rig).index(page.region), signed)
+    page.stroke = painted(page.stroke, names(app).index(page.region), signed)
 
 
 def end_stroke(app: App, rig: Rig) -> None:
     """The brush is lifted: what it painted is in use from now on."""
     page = app.lab.regions
     if page.stroke is not None:
-        app.painted = RegionSet(rig, names(rig), page.stroke)
+        app.painted = RegionSet(rig, names(app), page.stroke)
     page.stroke = page.last_dab = None
+
+
+def use(app: App, chosen: RegionSet | None) -> None:
+    """Take other regions, or the face's own again; settings of regions that are no longer there go."""
+    app.painted = chosen
+    left = names(app)
+    kept = {name: setting for name, setting in app.controls.regions.items() if name in left}
+    if len(kept) < len(app.controls.regions):
+        app.controls = replace(app.controls, regions=kept)
+
+
+def save(app: App, path: Path) -> None:
+    """Keep the regions in use in a file."""
+    from facemorph.io import write_regions
+
+    present = region_set(app)
+    if app.rig is None or present is None:
+        return
+    path = path if path.suffix.lower() == ".npz" else path.with_name(path.name + ".npz")
+    try:
+        write_regions(path, present, app.rig)
+    except FacemorphError as error:
+        tell_error(app, "The regions were not saved", error)
+        return
+    app.messages.tell(f"Saved {path}")
+
+
+def load(app: App, path: Path) -> None:
+    """Take the regions kept in a file; the present ones stay where that fails."""
+    from facemorph.io import read_regions
+
+    if app.rig is None:
+        return
+    try:
+        chosen = read_regions(path, app.rig)
+    except FacemorphError as error:
+        tell_error(app, "The regions were not opened", error)
+        return
+    use(app, chosen)
+    app.messages.tell(f"Opened {path.name}: {', '.join(chosen.names)}.")
 
 
 def soft_disc(positions: Float32, centre: Float64, radius: float) -> Float32:
@@ -115,10 +159,10 @@ def light(app: App, name: str) -> Float32 | None:
         if page.stroke is not None
         else (name, app.painted, app.rig)
     )
-    if app.rig is None or name not in names(app.rig):
+    if app.rig is None or name not in names(app):
         return None
     if page.lit[0] != key:
-        place, present = names(app.rig).index(name), region_set(app)
+        place, present = names(app).index(name), region_set(app)
         weights = page.stroke if page.stroke is not None else present.weights if present else None
         page.lit = (key, None if weights is None else np.ascontiguousarray(weights[place]))
     return page.lit[1]

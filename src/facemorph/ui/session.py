@@ -16,7 +16,7 @@ from imgui_bundle import imgui
 from facemorph.core.camera import Camera
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
-from facemorph.ui import actions, fonts, theme
+from facemorph.ui import actions, files, fonts, theme
 from facemorph.ui.draw import draw_ui
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
@@ -198,9 +198,9 @@ class Session:
         if path is None:
             return
         if app.on_face.split is None:
-            actions.write_picture(app, path, self.renderer.read(), self.renderer.legend)
+            files.write_picture(app, path, self.renderer.read(), self.renderer.legend)
         else:
-            actions.write_picture(app, path, side_by_side(self.renderer, self.split.renderer))
+            files.write_picture(app, path, side_by_side(self.renderer, self.split.renderer))
 
 
 def _another(renderer: DrawsFaces) -> DrawsFaces:

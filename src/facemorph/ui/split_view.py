@@ -132,6 +132,6 @@ def show(renderer: DrawsFaces, view: Viewport) -> None:
     imgui.get_background_draw_list().add_image(texture, low, high, (0, 1), (1, 0))
 
 
-def partner_key(scene: Scene) -> tuple[object, float]:
+def partner_key(scene: Scene) -> tuple[tuple[object, float], ...]:
     """What tells whether the colours mixed in are the same."""
-    return (scene.partner.rig, scene.partner.s) if scene.partner else (None, 0.0)
+    return tuple((partner.rig, partner.weight) for partner in scene.partners)

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import actions, dialogs, fonts, handles
+from facemorph.ui import dialogs, emotion, files, fonts, handles, regions
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
@@ -17,21 +17,34 @@ from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
 
 _SUFFIXES = {
-    "open": (*actions.MESH_SUFFIXES, ".toml"),
-    "folder": actions.MESH_SUFFIXES,
+    "open": (*files.MESH_SUFFIXES, ".toml"),
+    "folder": files.MESH_SUFFIXES,
+    "person": (*files.MESH_SUFFIXES, ".toml"),
+    "person folder": files.MESH_SUFFIXES,
     "picture": (".png",),
     "mesh": (".obj",),
     "open points": (".json",),
     "save points": (".json",),
+    "open regions": (".npz",),
+    "save regions": (".npz",),
+    "open path": (".json",),
+    "save path": (".json",),
 }
-_SAVING = ("picture", "mesh", "save points")
+_FOLDERS = ("folder", "person folder")
+_SAVING = ("picture", "mesh", "save points", "save regions", "save path")
 _HELP = {
     "open": "A mesh file, or the folder of a face. Tab completes what you type.",
     "folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
+    "person": "A mesh file, or the folder of a face, to mix the present face with. Tab completes what you type.",
+    "person folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
     "picture": "Where to save the picture (PNG). Tab completes what you type.",
     "mesh": "Where to save the morphed face (OBJ). Tab completes what you type.",
     "open points": "A file of points (JSON). Tab completes what you type.",
     "save points": "Where to save the points (JSON). Tab completes what you type.",
+    "open regions": "A file of regions (NPZ). Tab completes what you type.",
+    "save regions": "Where to save the regions (NPZ). Tab completes what you type.",
+    "open path": "A path over the emotion map (JSON). Tab completes what you type.",
+    "save path": "Where to save the path (JSON). Tab completes what you type.",
 }
 
 
@@ -126,7 +139,7 @@ def _completions(app: App) -> list[Entry]:
 def _usable(purpose: str, goal: Path) -> bool:
     if purpose in _SAVING:
         return goal.parent.is_dir() and not goal.is_dir()
-    return goal.is_dir() if purpose == "folder" else goal.exists()
+    return goal.is_dir() if purpose in _FOLDERS else goal.exists()
 
 
 def _chosen(app: App, goal: Path) -> None:
@@ -151,17 +164,25 @@ def _take(app: App, purpose: str, paths: list[Path]) -> None:
     first = paths[0]
     app.settings.last_folder = str(first.parent)
     if purpose == "picture":
-        actions.save_picture(app, first)
+        files.save_picture(app, first)
     elif purpose == "mesh":
-        actions.export_mesh(app, first)
+        files.export_mesh(app, first)
     elif purpose == "open points":
         handles.load(app, first)
     elif purpose == "save points":
         handles.save(app, first)
+    elif purpose == "open regions":
+        regions.load(app, first)
+    elif purpose == "save regions":
+        regions.save(app, first)
+    elif purpose == "open path":
+        emotion.open_path(app, first)
+    elif purpose == "save path":
+        emotion.save_path(app, first)
     elif len(paths) == 1 and first.name == "face.toml":
-        actions.open_source(app, (str(first.parent),))
+        files.open_source(app, (str(first.parent),))
     else:
-        actions.open_source(app, [str(path) for path in paths])
+        files.open_source(app, [str(path) for path in paths])
 
 
 def _field(app: App, found: list[Entry]) -> bool:

@@ -7,7 +7,7 @@ from pathlib import Path
 from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.rig import plain_label
-from facemorph.ui import actions
+from facemorph.ui import actions, files
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.thumbnails import SIZE
@@ -51,7 +51,7 @@ def _tile(app: App, name: str, width: float) -> None:
     picture = width * SIZE[1] / SIZE[0]
     height = picture + imgui.get_font_size() + 10 * scale
     if imgui.invisible_button(name, ImVec2(width, height)):
-        actions.open_builtin(app, name)
+        files.open_builtin(app, name)
     hovered = imgui.is_item_hovered()
     tooltip(f"Open {plain_label(name)}")
     paint = imgui.get_window_draw_list()
@@ -82,6 +82,6 @@ def _recent(app: App) -> None:
         imgui.push_id(place)
         label = cut(f"{path.name or path}{more}", imgui.get_content_region_avail().x)
         if imgui.selectable(label, app.face is not None and list(app.face.source) == source)[0]:
-            actions.open_source(app, source)
+            files.open_source(app, source)
         imgui.pop_id()
         tooltip("\n".join(source[:12]))

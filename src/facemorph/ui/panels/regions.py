@@ -10,7 +10,7 @@ from facemorph.core.morph import CURVES, checked_curve
 from facemorph.core.pose import state_of
 from facemorph.core.rig import Rig, plain_label
 from facemorph.deform.regions import RegionControl
-from facemorph.ui import regions
+from facemorph.ui import actions, regions
 from facemorph.ui.panels.rows import method_head, quiet_words
 from facemorph.ui.panels.value_rows import (
     Value,
@@ -58,7 +58,7 @@ def draw(app: App) -> None:
         quiet_words("This face has no regions yet: switch the brush on and paint some on it.")
     elif not app.lab.regions.painting:
         _all(app, app.rig)
-        for name in regions.names(app.rig):
+        for name in regions.names(app):
             imgui.push_id(name)
             _region(app, app.rig, name)
             imgui.pop_id()
@@ -67,7 +67,7 @@ def draw(app: App) -> None:
 
 def _all(app: App, rig: Rig) -> None:
     """One row for every region at once; its slider stands at their mean."""
-    names = regions.names(rig)
+    names = regions.names(app)
     present = {name: regions.control(app, rig, name) for name in names}
     mean = sum(kept.t for kept in present.values()) / max(len(names), 1)
     t = _t_row(app, "All", mean, "Sets every region's t: with all alike this is the global morph (2.5)")
@@ -214,7 +214,7 @@ def _brush(app: App, rig: Rig) -> None:
         page.stroke = None  # of a brush that was down when the page was left
     tip = "Paint with the left button on the face; beside it the mouse still turns the face"
     page.painting = switch_row(app, "Paint on the face", page.painting, tip)
-    names = regions.names(rig)
+    names = regions.names(app)
     page.region = page.region if page.region in names else names[0]
     if page.radius <= 0.0:
         page.radius = round(rig.neutral.diagonal / 25.0, 2) or 1.0
@@ -234,7 +234,20 @@ def _brush(app: App, rig: Rig) -> None:
         )
         app.on_face.tool = BrushTool()
         app.on_face.glow = regions.light(app, page.region)
-    if app.painted is not None and button_row(
-        app, (("Undo all painting", "The face's own regions again", True),)
-    ):
-        app.painted = None
+    _files(app, rig)
+
+
+def _files(app: App, rig: Rig) -> None:
+    own = "The face's own regions again" if rig.regions is not None else "No regions again, as the face came"
+    pressed = button_row(
+        app,
+        (
+            ("Unpaint", own, app.painted is not None),
+            ("Open…", "Open regions kept in a file", True),
+            ("Save…", "Keep the regions in a file", regions.region_set(app) is not None),
+        ),
+    )
+    if pressed == "Unpaint":
+        regions.use(app, None)
+    elif pressed:
+        actions.ask_for(app, "open regions" if pressed == "Open…" else "save regions")

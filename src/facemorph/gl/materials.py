@@ -22,6 +22,8 @@ class Finish:
     catches    whether its highlight is an eye's catchlight
     shade      factor on the colour, for what lies inside the mouth
     matte      luminance of the colour below which nothing shines: hair and brows painted on skin
+    shader     the fragment shader that draws it
+    by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
     """
 
     wrap: Colour
@@ -32,6 +34,8 @@ class Finish:
     shade: float = 1.0
     matte: float = 0.0
     catches: bool = False
+    shader: str = "lit.frag"
+    by_pixel: bool = False
 
 
 SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6, matte=0.045)

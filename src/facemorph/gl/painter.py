@@ -7,6 +7,7 @@ is then rejected by depth before it is shaded, and open surfaces still show both
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     import moderngl
 
 Uniforms = Mapping[str, object]
+NOTHING_OF_FACE: Uniforms = MappingProxyType({})
 # GL's blend factors: ONE, SRC_ALPHA and ONE_MINUS_SRC_ALPHA.
 _PREMULTIPLIED = (0x0001, 0x0303)
 _STRAIGHT = (0x0302, 0x0303)
@@ -59,16 +61,18 @@ class Painter:
         *,
         glowing: bool = False,
         shares: Sequence[float] = (),
+        face: Uniforms = NOTHING_OF_FACE,
     ) -> None:
         """Fill `framebuffer` with the face as `look` wants it.
 
         glowing   whether the surface's `glow` lights it up, in shadings that have light
         shares    of the colours: the face's own and those of each of the surface's partners, together 1;
                   all its own where they are left out
+        face      what the drivers tell shaders of the face in its pose
         """
         self._glowing = glowing
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
-        scene = self._scene(camera, look, size)
+        scene = {**self._scene(camera, look, size), **face}
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
@@ -180,9 +184,10 @@ class Painter:
         if self._glowing:
             define.append("GLOW")
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
-        by_vertex = self._software and surface.mesh.vertex_count >= FINE_MESH and scene["side"] == _OUTSIDE
+        fine = surface.mesh.vertex_count >= FINE_MESH and not finish.by_pixel
+        by_vertex = self._software and fine and scene["side"] == _OUTSIDE
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
-        self._draw(surface, part, scene, "skin.frag", [*lit, *define], own)
+        self._draw(surface, part, scene, finish.shader, [*lit, *define], own)
 
     def _draw(
         self, surface: Surface, part: Part, scene: Uniforms, name: str, define: list[str], own: Uniforms

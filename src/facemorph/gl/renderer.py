@@ -29,9 +29,10 @@ from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene, colour_shares
 from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
+from facemorph.gl.drivers import Driver, drivers_of, uniforms_of
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.lights import Lights
-from facemorph.gl.painter import Painter
+from facemorph.gl.painter import NOTHING_OF_FACE, Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
 from facemorph.gl.scenes import checked_scene, partner_surface
@@ -76,6 +77,7 @@ class _Shown:
     coefficients: Float64
     offsets: Float32 | None
     exactly: bool
+    face: Mapping[str, object]
 
 
 class Renderer:
@@ -101,6 +103,7 @@ class Renderer:
         self._surface: Surface | None = None
         self._morph: Morph | None = None
         self._blend: Blend | None = None
+        self._drivers: tuple[Driver, ...] = ()
         self._shown: _Shown | None = None
         self._drawn: tuple[Camera, tuple[int, int]] | None = None
         self._legend: Legend | None = None
@@ -119,6 +122,7 @@ class Renderer:
             raise
         self._unload()
         self._rig, self._surface, self._blend, self._morph = rig, surface, blend, morph
+        self._drivers = drivers_of(rig)
         self.stats = Stats()
 
     def _new_morph(self, rig: Rig, surface: Surface, blend: Blend) -> Morph:
@@ -194,6 +198,7 @@ class Renderer:
                 size,
                 glowing=scene.glow is not None,
                 shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *surface.partners)],
+                face=self._shown.face if self._shown else NOTHING_OF_FACE,
             )
             self._target.finish(framebuffer)
         finally:
@@ -262,7 +267,8 @@ class Renderer:
         assert self._morph is not None
         self._shown = None
         self._morph.update(scene.pose, scene.offsets, exactly=exactly)
-        self._shown = _Shown(scene.pose, coefficients, scene.offsets, exactly)
+        face = uniforms_of(self._drivers, coefficients, scene.offsets)
+        self._shown = _Shown(scene.pose, coefficients, scene.offsets, exactly, face)
         self.stats.morphs += 1
 
     def _with_heat_end(self, look: Look, scene: Scene, rig: Rig) -> Look:
@@ -287,6 +293,7 @@ class Renderer:
             if held is not None:
                 held.release()
         self._rig = self._surface = self._morph = self._blend = None
+        self._drivers = ()
         self._shown = self._drawn = self._legend = None
 
     def release(self) -> None:

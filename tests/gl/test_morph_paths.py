@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import moderngl
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 from facemorph.core.blend import Blend
+from facemorph.core.correctives import Corrective, Hat
 from facemorph.core.normals import vertex_normals
 from facemorph.core.pose import Pose
 from facemorph.core.rig import FaceInfo, Rig, Shape
@@ -67,9 +69,16 @@ class Bench:
         self._programs.release()
 
 
-@pytest.fixture(scope="module")
-def bench(ctx: moderngl.Context) -> Iterator[Bench]:
-    made = Bench(ctx, many_shapes(COUNT))
+RULES = (
+    Corrective("s21", ("s1", "s2")),
+    Corrective("s22", hats=(Hat("s2"),)),
+    Corrective("s23", ("s4",), (Hat("s9", -0.5, 0.4, 0.9),)),
+)
+
+
+@pytest.fixture(scope="module", params=[(), RULES], ids=["linear", "corrected"])
+def bench(ctx: moderngl.Context, request: pytest.FixtureRequest) -> Iterator[Bench]:
+    made = Bench(ctx, replace(many_shapes(COUNT), correctives=request.param))
     yield made
     made.release()
 
@@ -119,7 +128,7 @@ def test_more_active_shapes_than_layers_take_several_passes(bench: Bench) -> Non
     assert isinstance(morph, ShaderMorph)
     before = morph.passes
     morph.update(POSES["all, of both signs"], exactly=False)
-    assert morph.passes - before == 5
+    assert morph.passes - before == -(-(COUNT + len(bench.rig.correctives)) // 5)
 
 
 def test_dragging_the_slider_uploads_no_weights(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> None:

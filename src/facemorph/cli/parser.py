@@ -201,6 +201,11 @@ def _pose_options(parser: Parser) -> None:
     )
     _set_option(parser)
     parser.add_argument(
+        "--linear",
+        action="store_true",
+        help="leave out the face's correctives: the plain sum of its shapes",
+    )
+    parser.add_argument(
         "--au",
         dest="units",
         action="append",

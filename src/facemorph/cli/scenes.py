@@ -17,14 +17,12 @@ from facemorph.errors import OptionError
 
 def rig_and_scene(options: argparse.Namespace) -> tuple[Rig, Scene]:
     """What to draw or export. Raises what loading and the methods raise, and `OptionError`."""
-    from facemorph import api
-
     if options.bilinear is None:
         if options.s is not None:
             raise OptionError("--s goes with --bilinear FACE1,FACE2 EXPRESSION1,EXPRESSION2.")
         if not options.face:
             raise OptionError("no face was named: a built-in name, a folder, or mesh files.")
-        rig = api.load(options.face)
+        rig = _loaded(options, options.face)
         pose = pose_from(options, rig)
         return rig, Scene.moved(pose, BoundControls(rig)(pose, _controls(options, rig)))
     return _bilinear(options)
@@ -32,14 +30,12 @@ def rig_and_scene(options: argparse.Namespace) -> tuple[Rig, Scene]:
 
 def _bilinear(options: argparse.Namespace) -> tuple[Rig, Scene]:
     """(2.10): s between two people, t between two expressions."""
-    from facemorph import api
-
     if options.face or options.source != NEUTRAL or options.target is not None:
         raise OptionError("--bilinear names its own faces and expressions; leave out FACE, --from and --to.")
     names = _pair(options.bilinear[0], "two faces")
     expressions = _pair(options.bilinear[1], "two expressions")
     s = parsed_weight(options.s, "--s") if options.s is not None else 0.0
-    rig, other = (api.load(name) for name in names)
+    rig, other = (_loaded(options, name) for name in names)
     pose = pose_between(options, rig, *expressions)
     for name in pose.names():
         other.shape(name)
@@ -48,6 +44,13 @@ def _bilinear(options: argparse.Namespace) -> tuple[Rig, Scene]:
     bound = BoundControls(rig, first, {second: other})
     partners = [Partner(other, s)] if first != second else []
     return rig, Scene.moved(pose, bound(pose, controls), partners)
+
+
+def _loaded(options: argparse.Namespace, source: str | Sequence[str]) -> Rig:
+    from facemorph import api
+
+    rig = api.load(source)
+    return rig.linear() if options.linear else rig
 
 
 def _pair(text: str, what: str) -> tuple[str, str]:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Int32, UInt8
+from facemorph.core.arrays import Float32, Float64, Int32, UInt8
+from facemorph.core.correctives import CORRECTIVE, Activation, Corrective
 from facemorph.core.mesh import Mesh
 from facemorph.core.morph import morphed_positions
 from facemorph.core.normals import vertex_normals
@@ -23,7 +24,8 @@ EXPRESSION = "expression"
 class Shape:
     """One blendshape: the name it is called by, the words shown for it, and the set it belongs to.
 
-    `set` is "expression" for whole expressions, "facs" for FACS units, "arkit" for ARKit shapes.
+    `set` is "expression" for whole expressions, "facs" for FACS units, "arkit" for ARKit shapes,
+    "corrective" for those that others switch on.
     """
 
     name: str
@@ -65,7 +67,9 @@ class FaceInfo:
 class Rig:
     """A neutral `Mesh` and K shapes; `deltas` (K, V, 3) float32, in the neutral's unit.
 
-    Raises `MeshDataError` when deltas and neutral do not fit or a name stands twice.
+    `correctives` say which shapes follow from the others' weights; where `corrected` is off, they rest, and
+    every face is the plain sum of its shapes.
+    Raises `MeshDataError` when deltas and neutral do not fit, a name stands twice, or a rule has no shape.
     """
 
     neutral: Mesh
@@ -73,6 +77,8 @@ class Rig:
     deltas: Float32
     info: FaceInfo = field(default_factory=lambda: FaceInfo("face"))
     regions: Regions | None = None
+    correctives: tuple[Corrective, ...] = ()
+    corrected: bool = True
 
     def __post_init__(self) -> None:
         expected = (len(self.shapes), self.neutral.vertex_count, 3)
@@ -83,6 +89,7 @@ class Rig:
             if shape.name in seen or shape.name == NEUTRAL:
                 raise MeshDataError(f"two shapes are called {shape.name!r}; every shape needs its own name.")
             seen.add(shape.name)
+        Activation(self.names, self.correctives)
 
     def __repr__(self) -> str:
         return f"<Rig {self.info.name!r}: {self.neutral.vertex_count:,} vertices, {len(self.shapes)} shapes>"
@@ -106,6 +113,19 @@ class Rig:
         return tuple(shape.name for shape in self.shapes)
 
     @cached_property
+    def _activation(self) -> Activation:
+        return Activation(self.names, self.correctives)
+
+    @cached_property
+    def controls(self) -> tuple[Shape, ...]:
+        """The shapes that have a weight of their own: all but those that follow from others."""
+        return tuple(shape for shape in self.shapes if shape.set != CORRECTIVE)
+
+    def linear(self) -> Rig:
+        """The same rig with its correctives at rest: every face is the plain sum of its shapes."""
+        return replace(self, corrected=False) if self.correctives and self.corrected else self
+
+    @cached_property
     def triangles(self) -> Int32:
         """Triangles (T, 3) over the positions, from the neutral's polygons."""
         return triangulated(self.neutral).vertices
@@ -121,9 +141,14 @@ class Rig:
                 return shape
         raise UnknownNameError("shape", name, self.names)
 
+    def coefficients(self, pose: Pose | Mapping[str, float]) -> Float64:
+        """Coefficients (K,) of all shapes in `pose`, those that correctives switch on included."""
+        plain = as_pose(pose).coefficients(self.names)
+        return self._activation(plain) if self.correctives and self.corrected else plain
+
     def positions(self, pose: Pose | Mapping[str, float]) -> Float32:
         """Positions (V, 3) float32 of the face in `pose` (a `Pose`, or shape name -> weight)."""
-        return morphed_positions(self.neutral.positions, self.deltas, as_pose(pose).coefficients(self.names))
+        return morphed_positions(self.neutral.positions, self.deltas, self.coefficients(pose))
 
     def normals(self, pose: Pose | Mapping[str, float]) -> Float32:
         """Unit normals (V, 3) of the morphed surface, area-weighted."""

@@ -138,6 +138,6 @@ class BoundControls:
             known = {name: self._people[name] for name in others if name in self._people}
             self._bound_people = (others, People({self._name: self.rig, **known}))
         people = self._bound_people[1]
-        offsets = people.offsets(weights, pose.coefficients(self.rig.names))
+        offsets = people.offsets(weights, self.rig.coefficients(pose))
         uneven = {n: s for n, s in controls.facs.items() if s.left != s.right and controls.on("facs")}
         return offsets + people.sided_offsets(weights, uneven) if uneven else offsets

@@ -62,7 +62,6 @@ class RegionSet:
         self._rig = rig
         self.names = names
         self.weights = weights
-        self._index = {shape.name: k for k, shape in enumerate(rig.shapes)}
 
     @classmethod
     def of(cls, rig: Rig) -> RegionSet:
@@ -98,19 +97,14 @@ class RegionSet:
         """Where the region's vertices would go if they belonged to it alone, less where they rest, (n, 3)."""
         rest = self._rig.neutral.positions[inside].astype(np.float64)
         moved = rest.copy()
-        for shape, value in control.state().items():
-            if value:
-                moved += value * self._rig.deltas[self._shape(shape)][inside]
+        coefficients = self._rig.coefficients(control.state())
+        for k in np.flatnonzero(coefficients):
+            moved += coefficients[k] * self._rig.deltas[k][inside]
         if control.moves_rigidly:
             pivot = self._middle(weight) if control.pivot is None else np.asarray(control.pivot)
             turned = (moved - pivot) @ rotation(control.turn_deg).T * control.size
             moved = turned + pivot + np.asarray(control.shift)
         return moved - rest
-
-    def _shape(self, name: str) -> int:
-        if name not in self._index:
-            raise UnknownNameError("shape", name, self._index)
-        return self._index[name]
 
 
 def rotation(turn_deg: tuple[float, float, float]) -> Float64:

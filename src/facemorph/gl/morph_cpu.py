@@ -35,7 +35,7 @@ class CpuMorph:
 
     def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
         """Morph to `pose` plus `offsets` (V, 3); `exactly` makes the result independent of poses before."""
-        positions = self._blend(pose.coefficients(self._rig.names), exactly=exactly)
+        positions = self._blend(self._rig.coefficients(pose), exactly=exactly)
         if offsets is not None:
             positions = positions + offsets
         for axis in range(3):

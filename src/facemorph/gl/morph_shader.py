@@ -8,12 +8,13 @@ from the triangles around it and feeds both back into the buffer that is drawn.
 Memory is bounded: the array has at most as many layers as fit in `MEMORY` bytes and as OpenGL has, and
 at least one; layers are filled when a shape first becomes active, and the least recently used one makes
 room. More active shapes than layers are added in several passes, each starting from the one before, so
-that there is no limit to how many may be active.
+that there is no limit to how many may be active. Correctives are worked out in the shader too.
 """
 
 from __future__ import annotations
 
 from collections import OrderedDict
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,6 +24,7 @@ from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.gl.grids import grid_size, list_texture, padded
 from facemorph.gl.programs import Programs
+from facemorph.gl.rule_rows import row_width, rule_rows
 from facemorph.gl.surface import Surface
 
 if TYPE_CHECKING:
@@ -30,7 +32,16 @@ if TYPE_CHECKING:
 
 MEMORY = 256 * 1024 * 1024
 _CURVES = {"linear": 0, "cosine": 1}
-_BASE, _DELTAS, _ACTIVE, _POSITIONS, _RINGS, _RING_CORNERS = range(6)
+_BASE, _DELTAS, _ACTIVE, _RULES, _POSITIONS, _RINGS, _RING_CORNERS = range(7)
+
+
+@dataclass(frozen=True, eq=False)
+class _Item:
+    """What a pass adds: a shape by its source, target and added weight (3,), or by a rule's row."""
+
+    shape: int
+    row: Float32
+    rule: bool = False
 
 
 class ShaderMorph:
@@ -54,7 +65,7 @@ class ShaderMorph:
         self._layers = self._layer_count(max_layers)
         self._layer_of: OrderedDict[int, int] = OrderedDict()
         self._listed: tuple[bytes, ...] = ()
-        self._shapes: list[Float32] = []
+        self._items: list[_Item] = []
         self.passes = 0
         self._make_textures(rig, surface.triangles.vertices)
         self._make_arrays(programs, surface)
@@ -75,7 +86,9 @@ class ShaderMorph:
         self._deltas = ctx.texture_array((*size, self._layers), 3, dtype="f4")
         self._active = ctx.texture((self._layers, 1), 4, dtype="f4")
         self._deltas.filter = nearest
-        for texture in (*self._results, self._active):
+        self._rule_width = row_width(rig)
+        self._rules = ctx.texture((self._rule_width, self._layers), 4, dtype="f4")
+        for texture in (*self._results, self._active, self._rules):
             texture.filter = nearest
         rings, corners = vertex_rings(triangles, self._count)
         self._rings = list_texture(ctx, rings, "i4", self._largest)
@@ -88,7 +101,14 @@ class ShaderMorph:
         self._copies: moderngl.VertexArray | None = None
         self._position_of: moderngl.Buffer | None = None
         self.bind(surface)
-        _set(self._sum, base_positions=_BASE, deltas=_DELTAS, active_shapes=_ACTIVE, grid_size=self._size)
+        _set(
+            self._sum,
+            base_positions=_BASE,
+            deltas=_DELTAS,
+            active_shapes=_ACTIVE,
+            rules=_RULES,
+            grid_size=self._size,
+        )
         span = self._rig.neutral.diagonal or 1.0
         _set(
             self._fill, positions=_POSITIONS, rings=_RINGS, ring_corners=_RING_CORNERS, per_length=1.0 / span
@@ -117,7 +137,7 @@ class ShaderMorph:
         _set(self._sum, t=float(pose.t), curve=_CURVES[pose.curve])
         self._ctx.enable_only(self._ctx.NOTHING)
         base = self._neutral
-        for step in range(max(-(-len(self._shapes) // self._layers), 1)):
+        for step in range(max(-(-len(self._items) // self._layers), 1)):
             base = self._add_pass(base, step)
         self._fill_drawn(base)
 
@@ -131,7 +151,7 @@ class ShaderMorph:
         self._offsets = offsets
 
     def _list_shapes(self, pose: Pose) -> None:
-        """Which shapes are active and with which weights, (A, 4) rows: source, target, added, index."""
+        """Which shapes are active and with which weights, and which correctives may be on."""
         names = self._rig.names
         states = [Pose.of(state).coefficients(names) for state in (pose.source, pose.target, pose.weights)]
         listed = tuple(state.tobytes() for state in states)
@@ -140,33 +160,44 @@ class ShaderMorph:
         self._listed = listed
         weights: Float64 = np.stack(states, axis=1)
         active = np.flatnonzero(weights.any(axis=1))
-        rows = np.concatenate([weights[active], active[:, None]], axis=1)
-        self._shapes = list(rows.astype(np.float32))
+        self._items = [_Item(int(k), weights[k].astype(np.float32)) for k in active]
+        self._items += [_Item(k, row, rule=True) for k, row in rule_rows(self._rig, weights)]
         self._table_step = -1
 
     def _add_pass(self, base: moderngl.Texture, step: int) -> moderngl.Texture:
         """Add one table's worth of shapes to `base`; returns the texture of the sums."""
-        rows = self._shapes[step * self._layers : (step + 1) * self._layers]
+        items = self._items[step * self._layers : (step + 1) * self._layers]
         if self._table_step != step:
-            self._write_table(rows)
+            self._write_table(items)
             self._table_step = step
-        _set(self._sum, active_count=len(rows))
+        ruled = sum(item.rule for item in items)
+        _set(self._sum, active_count=len(items) - ruled, rule_count=ruled)
         base.use(_BASE)
         self._deltas.use(_DELTAS)
         self._active.use(_ACTIVE)
+        self._rules.use(_RULES)
         self._targets[step % 2].use()
         if self._count:
             self._points.render(self._ctx.POINTS, vertices=self._count)
         self.passes += 1
         return self._results[step % 2]
 
-    def _write_table(self, rows: list[Float32]) -> None:
-        table = np.zeros((self._layers, 4), np.float32)
-        wanted = [int(row[3]) for row in rows]
-        for i, (row, k) in enumerate(zip(rows, wanted, strict=True)):
-            table[i, :3] = row[:3]
-            table[i, 3] = self._layer(k, wanted)
-        self._active.write(table.tobytes())
+    def _write_table(self, items: list[_Item]) -> None:
+        """Shapes first, then rules: texels (source, target, added, layer), and a row for each rule."""
+        shapes = np.zeros((self._layers, 4), np.float32)
+        rules = np.zeros((self._layers, self._rule_width, 4), np.float32)
+        wanted = [item.shape for item in items]
+        count = sum(not item.rule for item in items)
+        for i, item in enumerate(items):
+            layer = self._layer(item.shape, wanted)
+            if item.rule:
+                rules[i - count] = item.row
+                rules[i - count, 0, 1] = layer
+            else:
+                shapes[i] = *item.row, layer
+        self._active.write(shapes.tobytes())
+        if count < len(items):
+            self._rules.write(rules.tobytes())
 
     def _layer(self, k: int, wanted: list[int]) -> int:
         """The layer that holds shape k, filled now if it was in none."""
@@ -201,7 +232,14 @@ class ShaderMorph:
         self._points.release()
         for target in self._targets:
             target.release()
-        for texture in (*self._results, self._neutral, self._active, self._rings, self._ring_corners):
+        for texture in (
+            *self._results,
+            self._neutral,
+            self._active,
+            self._rules,
+            self._rings,
+            self._ring_corners,
+        ):
             texture.release()
         self._deltas.release()
 

@@ -218,7 +218,7 @@ class Renderer:
         rig, _ = self._loaded()
         assert self._blend is not None
         shown = self._shown
-        positions = self._blend(shown.coefficients if shown else Pose().coefficients(rig.names))
+        positions = self._blend(shown.coefficients if shown else rig.coefficients(Pose()))
         return positions if shown is None or shown.offsets is None else positions + shown.offsets
 
     def pick(self, x: float, y: float) -> Pick | None:
@@ -255,7 +255,7 @@ class Renderer:
 
     def _update(self, scene: Scene, rig: Rig, *, exactly: bool) -> None:
         """MORPH: only when a coefficient or the offsets changed since the last frame."""
-        coefficients = scene.pose.coefficients(rig.names)
+        coefficients = rig.coefficients(scene.pose)
         shown = self._shown
         if (
             shown is not None

@@ -59,7 +59,7 @@ def _states(rig: Rig, names: tuple[str, ...] | None) -> list[tuple[str, str]]:
     if names is not None:
         shapes = [rig.shape(name) for name in names if name != NEUTRAL]
     else:
-        shapes = list(rig.shapes_in(EXPRESSION) or rig.shapes)
+        shapes = list(rig.shapes_in(EXPRESSION) or rig.controls)
     return [(NEUTRAL, "Neutral"), *((shape.name, shape.label) for shape in shapes)]
 
 

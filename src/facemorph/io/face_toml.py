@@ -8,6 +8,7 @@
     name = "happy"                  label = "Happy", file = "happy.obj"; a label may be left out
     [[landmarks]]
     name = "nose_tip"               vertex = 1234, mpeg4 = "9.3", ibug = 30; the last two may be left out
+    [[correctives]]                 shapes that others switch on, see `correctives_toml`
 
 Where it has no expressions, the meshes in the folder are the shapes, as in a plain folder. Every file
 named must lie in the folder or below it, links followed first. Keys of another name are passed over, so
@@ -30,6 +31,7 @@ from facemorph.core.pose import NEUTRAL
 from facemorph.core.progress import Progress
 from facemorph.core.rig import FaceInfo, Landmark, Rig, Shape, plain_label
 from facemorph.errors import FaceFolderError, MeshDataError
+from facemorph.io import correctives_toml
 from facemorph.io.face_set import check_size, read_set
 from facemorph.io.inside import inside
 from facemorph.io.limits import SHAPES, shortened
@@ -46,9 +48,10 @@ _LANDMARKS = 10_000
 _KEYS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "": ("name", "description", "credit", "licence", "unit", "neutral", "shapes", "expressions",
-             "landmarks"),
+             "landmarks", correctives_toml.KEY),
         "expressions": ("name", "label", "file"),
         "landmarks": ("name", "vertex", "mpeg4", "ibug"),
+        correctives_toml.KEY: correctives_toml.KEYS,
     }
 )  # fmt: skip
 
@@ -111,12 +114,14 @@ def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: Mor
 
     Raises `FaceFolderError` where what `face.toml` says does not fit them.
     """
-    info = _info(face.folder, _table(face.folder), neutral.vertex_count)
+    table = _table(face.folder)
+    info = _info(face.folder, table, neutral.vertex_count)
+    rules = correctives_toml.read_correctives(table)
     shapes = tuple(shape for shape, _ in face.shapes)
     try:
         if more is None:
-            return Rig(neutral, shapes, deltas, info)
-        return Rig(neutral, (*shapes, *more.shapes), deltas, info, more.regions)
+            return Rig(neutral, shapes, deltas, info, correctives=rules)
+        return Rig(neutral, (*shapes, *more.shapes), deltas, info, more.regions, rules)
     except MeshDataError as error:
         raise FaceFolderError(f"{face.folder}: {error}") from error
 
@@ -132,7 +137,7 @@ def unknown_keys(folder: Path) -> Iterator[str]:
     table = _table(folder)
     told: set[tuple[str, str]] = set()
     tables = [("", table)]
-    for kind in ("expressions", "landmarks"):
+    for kind in tuple(_KEYS)[1:]:
         if table.has(kind):
             tables += [(kind, entry) for entry in table.tables(kind, _LANDMARKS)]
     for kind, entry in tables:

@@ -11,6 +11,7 @@ from facemorph.errors import FaceFolderError, MeshFileError
 from facemorph.io.limits import NAME_BYTES, TOML_BYTES, read_bytes, shortened
 
 _T = TypeVar("_T")
+_LARGEST = 1e9
 
 
 def read_table(path: Path) -> Table:
@@ -48,6 +49,32 @@ class Table:
     def number(self, key: str) -> int:
         """A whole number that must be there."""
         return self._of(int, key, None)
+
+    def texts(self, key: str, most: int) -> tuple[str, ...]:
+        """An array of texts; none where it is not there."""
+        values = self._list(key, most)
+        if not all(isinstance(value, str) for value in values):
+            raise FaceFolderError(f"{self.path}: {self._where}{key} must be an array of texts.")
+        return tuple(str(value) for value in values)
+
+    def numbers(self, key: str, most: int) -> tuple[float, ...]:
+        """An array of finite numbers; none where it is not there."""
+        values = self._list(key, most)
+        plain = all(isinstance(value, int | float) and not isinstance(value, bool) for value in values)
+        # Bounds first and alone: they hold off infinity, and integers too large for a float.
+        if not plain or not all(-_LARGEST <= value <= _LARGEST for value in values):
+            raise FaceFolderError(f"{self.path}: {self._where}{key} must be an array of numbers.")
+        return tuple(float(value) for value in values)
+
+    def _list(self, key: str, most: int) -> list[Any]:
+        values = self._values.get(key, [])
+        if not isinstance(values, list):
+            raise FaceFolderError(f"{self.path}: {self._where}{key} must be an array.")
+        if len(values) > most:
+            raise FaceFolderError(
+                f"{self.path}: {self._where}{key} has {len(values):,} entries; {most} at most."
+            )
+        return values
 
     def tables(self, key: str, most: int) -> list[Table]:
         """The tables of an array; none where it is not there."""

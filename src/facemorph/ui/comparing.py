@@ -86,7 +86,7 @@ _CURVES: dict[str, Curve] = {"linear": "linear", "cosine": "cosine"}
 
 def _place(rig: Rig, vertex: int, pose: Pose, controls: Controls, bound: BoundControls) -> Float64:
     contribution = bound(pose, controls)
-    coefficients = contribution.added_to(pose).coefficients(rig.names)
+    coefficients = rig.coefficients(contribution.added_to(pose))
     place: Float64 = rig.neutral.positions[vertex] + coefficients @ rig.deltas[:, vertex].astype(np.float64)
     return place if contribution.offsets is None else place + contribution.offsets[vertex]
 

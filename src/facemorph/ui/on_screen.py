@@ -35,7 +35,7 @@ def shown_places(app: App, vertices: list[int], scene: Scene | None = None) -> F
     assert app.face is not None
     rig, scene, at = app.face.rig, scene or app.scene(), np.asarray(vertices, np.int64)
     places = rig.neutral.positions[at].astype(np.float64)
-    coefficients = scene.pose.coefficients(rig.names)
+    coefficients = rig.coefficients(scene.pose)
     for k in np.flatnonzero(coefficients):
         places += coefficients[k] * rig.deltas[k][at]
     return places if scene.offsets is None else places + scene.offsets[at]

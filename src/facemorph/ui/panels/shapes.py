@@ -41,7 +41,7 @@ def draw(app: App) -> None:
     """The panel's contents."""
     _head(app)
     rig = app.rig
-    if rig is None or not rig.shapes:
+    if rig is None or not rig.controls:
         quiet_words("No face is open." if rig is None else "This face has no shapes: nothing to morph to.")
         return
     _search(app)
@@ -55,7 +55,7 @@ def _head(app: App) -> None:
     line = Head(
         "Shapes",
         app.shapes_on,
-        app.rig is not None and bool(app.rig.shapes),
+        app.rig is not None and bool(app.rig.controls),
         bool(app.pose.weights),
         "Take these shapes out of the face, and put them back",
         "Takes out every shape added here; the slider along the bottom stays",
@@ -100,11 +100,11 @@ def _refresh_active(app: App, rig: Rig) -> None:
 def _lines(app: App, rig: Rig) -> list[_Line]:
     words, shut = app.shapes.search, app.settings.shut_sections
     sections: dict[str, list[Shape]] = {}
-    by_name = {shape.name: shape for shape in rig.shapes}
+    by_name = {shape.name: shape for shape in rig.controls}
     active = [by_name[name] for name in app.shapes.active if name in by_name and found(by_name[name], words)]
     if active:
         sections[ACTIVE] = active
-    for shape in rig.shapes:
+    for shape in rig.controls:
         if found(shape, words):
             sections.setdefault(shape.set, []).append(shape)
     lines: list[_Line] = []

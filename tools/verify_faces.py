@@ -11,8 +11,19 @@ import numpy as np
 
 PEOPLE = ("ada", "ben", "mei", "kofi", "zola", "omar")
 STATES = ("neutral", "happy", "sad", "angry", "surprised", "disgusted", "afraid")
-GROUPS = ["skin", "mouth", "eye_L", "eye_R", "teeth_upper", "teeth_lower", "tongue", "lashes"]
-PICTURES = ("skin.jpg", "eye.png", "teeth.png")
+GROUPS = [
+    "skin",
+    "mouth",
+    "eye_L",
+    "eye_R",
+    "teeth_upper",
+    "gums_upper",
+    "teeth_lower",
+    "gums_lower",
+    "tongue",
+    "lashes",
+]
+PICTURES = ("skin.jpg", "eye.png", "teeth.jpg", "gum.jpg", "tongue.jpg")
 REGIONS = ["brows", "eyes", "nose", "cheeks", "mouth", "jaw"]
 MEGABYTE = 1e6
 LARGEST_FOLDER, LARGEST_ZIPPED = 56 * MEGABYTE, 30 * MEGABYTE

@@ -4,11 +4,12 @@ from pathlib import Path
 
 from .head import Body, Head
 from .landmarks import find_landmarks
+from .mouth_textures import gum_picture, teeth_picture, tongue_picture
 from .pack import write_shapes
 from .people import PEOPLE, Person
 from .recipes import EXPRESSIONS
 from .regions import build_regions
-from .small_textures import eye_picture, teeth_picture
+from .small_textures import eye_picture
 from .source import Source
 from .textures import Painter
 from .write import layout_text, write_mtl, write_obj, write_toml
@@ -46,4 +47,5 @@ class Bakery:
     def _pictures(self, person: Person, body: Body, folder: Path):
         self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
         eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
-        teeth_picture().save(folder / "teeth.png", optimize=True)
+        for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):
+            paint(person.look).save(folder / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)

@@ -15,12 +15,14 @@ from .subdivide import Refinement, compact, refine_linear, refine_smooth, triang
 class FineMesh:
     """operator: sparse (n, 19158) from base-mesh points to fine points.
 
+    base_vertices: (c,) the base-mesh vertices that the first c fine points stand for.
     coarse, coarse_uv: (m, 4) cage faces in fine indices; smooth and flat: how they split, for points
     and for uv; quads, uv_quads: (4m, 4); uv, source_uv: (t, 2) in the atlas and in MakeHuman's layout;
     island: (4m,); on_head: (n,) true on the head's outside.
     """
 
     operator: sp.csr_matrix
+    base_vertices: np.ndarray
     coarse: np.ndarray
     coarse_uv: np.ndarray
     coarse_island: np.ndarray
@@ -61,6 +63,7 @@ def build_fine_mesh(base: BaseMesh, cage: Cage) -> FineMesh:
     on_head[quads[island == HEAD].ravel()] = True
     return FineMesh(
         operator,
+        used,
         coarse,
         coarse_uv,
         cage.island,

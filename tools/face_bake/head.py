@@ -7,6 +7,8 @@ from .cage import build_cage
 from .finemesh import build_fine_mesh
 from .hair import scalp_lift
 from .lashes import LashesPart
+from .mouth_fit import MouthFit
+from .mouth_room import MouthRoom
 from .parts import Group, Part, Posed, stacked
 from .parts_eyes import EYE_VERTICES, Eye, push_out
 from .parts_skin import SkinPart
@@ -36,7 +38,6 @@ class Head:
         self.seal = LipSeal(self.cage, base.points)
         self.skin = self._adapt()
         self.lashes = LashesPart.of(base)
-        self.tongue = Tongue(base.faces["helper-tongue"], base.points)
         self.parts = self._make_parts()
         self.groups, self.uv = stacked(self.parts)
         self.vertex_count = self.groups[-1].first + self.groups[-1].count
@@ -51,14 +52,13 @@ class Head:
 
     def _make_parts(self) -> list[Part]:
         """In the order of the file; the skin comes first."""
-        base = self.source.base
         return [
             SkinPart(self.skin, self.fine),
             Eye(0),
             Eye(1),
-            Teeth(base.faces["helper-upper-teeth"], base.points, upper=True),
-            Teeth(base.faces["helper-lower-teeth"], base.points, upper=False),
-            self.tongue,
+            Teeth(upper=True),
+            Teeth(upper=False),
+            Tongue(),
             self.lashes,
         ]
 
@@ -74,6 +74,8 @@ class Body:
         self.shaper = Shaper(head.source, person, head.seal)
         self.neutral, fine = self.shaper.neutral, head.fine
         self._rest = fine.operator @ self.neutral
+        self.mouth = MouthFit(fine, head.seal, self._rest, self.neutral)
+        self._mouth_room = MouthRoom(fine, head.seal, self._rest, self.mouth)
         lift = scalp_lift(fine, head.source.base.points, person.look)
         self.scalp = lift[:, None] * vertex_normals(self._rest, fine.triangles)
         height = self.neutral[EYE_VERTICES[0]].mean(0)[1]
@@ -85,7 +87,8 @@ class Body:
     def fine_skin(self, shape: np.ndarray) -> np.ndarray:
         """All fine skin vertices in base-mesh space, without hair."""
         points = self.head.fine.operator @ shape
-        return push_out(points, self._rest, self.head.fine.on_head, shape, self.neutral)
+        points = push_out(points, self._rest, self.head.fine.on_head, shape, self.neutral)
+        return self._mouth_room.clear(points, shape, self.neutral)
 
     def solids(self, shape: np.ndarray, names: tuple[str, ...]) -> list[tuple[np.ndarray, np.ndarray]]:
         """Points in base-mesh space and triangles of some groups: what casts shade on the skin."""

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from .dentition import MIDDLE_EDGE, MIDDLE_NECK
+from .parts_tongue import TONGUE_CENTRE, TONGUE_LEFT, TONGUE_RIGHT, TONGUE_TIP
+
 
 def _jaw_names() -> list[str]:
     right = [f"jaw line right {8 - i}" for i in range(8)]
@@ -126,25 +129,6 @@ def _first(group: str, offset: int = 0):
     return lambda probe: probe.head.group(group).first + offset
 
 
-def _tooth(group: str, row: int):
-    """On the middle column of an arch."""
-
-    def find(probe) -> int:
-        columns = probe.head.group(group).count // 9
-        return probe.head.group(group).first + row * columns + columns // 2
-
-    return find
-
-
-def _tongue(direction):
-    def find(probe) -> int:
-        base = probe.head.source.base.points
-        used = probe.head.tongue.laid(base, base)
-        return probe.head.group("tongue").first + int(np.argmax(used @ np.array(direction)))
-
-    return find
-
-
 def _skull(direction):
     return lambda probe: probe.best(probe.points @ np.array(direction), probe.on_skull())
 
@@ -162,20 +146,20 @@ EXTRAS = [
     ("right cheek centre", "5.2", _near(-0.46, 6.86, 1.24)),
     ("left cheekbone", "5.3", _near(0.56, 7.10, 1.16)),
     ("right cheekbone", "5.4", _near(-0.56, 7.10, 1.16)),
-    ("tongue tip", "6.1", _tongue((0, 0, 1))),
-    ("tongue centre", "6.2", _tongue((0, 1, 0.3))),
-    ("tongue left edge", "6.3", _tongue((1, 0, 0.5))),
-    ("tongue right edge", "6.4", _tongue((-1, 0, 0.5))),
+    ("tongue tip", "6.1", _first("tongue", TONGUE_TIP)),
+    ("tongue centre", "6.2", _first("tongue", TONGUE_CENTRE)),
+    ("tongue left edge", "6.3", _first("tongue", TONGUE_LEFT)),
+    ("tongue right edge", "6.4", _first("tongue", TONGUE_RIGHT)),
     ("left nostril side", "9.1", _near(0.175, 6.91, 1.51)),
     ("right nostril side", "9.2", _near(-0.175, 6.91, 1.51)),
     ("right nose bone upper edge", "9.6", _near(-0.10, 7.27, 1.45)),
     ("left nose bone upper edge", "9.7", _near(0.10, 7.27, 1.45)),
     ("left nose bone lower edge", "9.13", _near(0.10, 7.10, 1.52)),
     ("right nose bone lower edge", "9.14", _near(-0.10, 7.10, 1.52)),
-    ("upper teeth top", "9.8", _tooth("teeth_upper", 0)),
-    ("lower teeth bottom", "9.9", _tooth("teeth_lower", 0)),
-    ("upper teeth edge", "9.10", _tooth("teeth_upper", 6)),
-    ("lower teeth edge", "9.11", _tooth("teeth_lower", 6)),
+    ("upper teeth top", "9.8", _first("teeth_upper", MIDDLE_NECK)),
+    ("lower teeth bottom", "9.9", _first("teeth_lower", MIDDLE_NECK)),
+    ("upper teeth edge", "9.10", _first("teeth_upper", MIDDLE_EDGE)),
+    ("lower teeth edge", "9.11", _first("teeth_lower", MIDDLE_EDGE)),
     ("left ear top", "10.1", _ear(1, (0, 1, 0))),
     ("right ear top", "10.2", _ear(-1, (0, 1, 0))),
     ("left ear back", "10.3", _ear(1, (0, 0, -1))),

@@ -39,6 +39,8 @@ class Look:
     blush: float = 1.0
     freckles: float = 0.0
     stubble: float = 0.0
+    tooth_age: float = 0.0
+    gum_pigment: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,7 @@ BEN = Person(
         brow_arch=-0.006,
         stubble=0.75,
         blush=0.7,
+        tooth_age=0.35,
     ),
     {
         "nose/nose-scale-vert-decr": 0.3,
@@ -138,6 +141,7 @@ KOFI = Person(
         iris=(0.14, 0.08, 0.05),
         hair_style="buzz",
         hair_strength=0.93,
+        gum_pigment=0.75,
         brow_thickness=1.05,
         lip_strength=0.7,
         lid=(0.88, 0.84, 0.82),
@@ -162,6 +166,7 @@ ZOLA = Person(
         brow_thickness=0.85,
         brow_arch=0.012,
         lip_strength=0.8,
+        gum_pigment=0.55,
         lid=(0.88, 0.82, 0.80),
     ),
     {"mouth/mouth-angles-up": 0.25},
@@ -180,6 +185,8 @@ OMAR = Person(
         brow_thickness=1.2,
         stubble=0.6,
         blush=0.6,
+        tooth_age=1.0,
+        gum_pigment=0.2,
     ),
     {"mouth/mouth-angles-up": 0.2},
     rest=REST_OF_MEN,

@@ -6,12 +6,12 @@ import numpy as np
 
 from .brows import paint_brows
 from .hair import paint_hair
+from .mouth_paint import LINING_LIGHT, paint_lining
 from .paintkit import Noise, Plane, mix, smoothstep, tint
 from .people import Look
 
 RED = (1.02, 0.84, 0.81)
-MOUTH_LIGHT, LIP_LIGHT = 0.6, 0.3
-MOUTH_COLOUR = np.array([0.36, 0.13, 0.13], np.float32)
+LIP_LIGHT = 0.55
 
 
 @dataclass(frozen=True)
@@ -104,9 +104,9 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> 
     colour = paint_brows(colour, points, look, rng)
     colour = paint_hair(colour, points, canvas.ears, noise, look)
     colour = _lid_lines(colour, canvas, look)
-    colour = mix(colour, MOUTH_COLOUR * (1 + 0.15 * mottling[:, None]), canvas.mouth)
+    colour = paint_lining(colour, canvas, mottling, look)
     light = np.clip(light * 1.12, 0, 1)
-    # The neutral's closed mouth is pitch dark inside; an open one is not.
-    light = np.maximum(light, np.maximum(MOUTH_LIGHT * canvas.mouth, LIP_LIGHT * canvas.lips))
+    # The neutral's closed mouth is dark on the lips' inner sides; an open one is not.
+    light = np.where(canvas.mouth > 0, LINING_LIGHT, np.maximum(light, LIP_LIGHT * canvas.lips))
     # Shade in skin is warm: red light travels further through it.
     return colour * np.stack([light**0.75, light**1.05, light**1.10], -1)

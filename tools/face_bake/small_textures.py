@@ -1,4 +1,4 @@
-"""Pictures of the eye and of the teeth."""
+"""Pictures of the eye."""
 
 import numpy as np
 from PIL import Image
@@ -45,19 +45,3 @@ def eye_picture(iris, size: int = 512) -> Image.Image:
     colours = colours * (1 - pupil) + 0.012 * pupil
     lid_shadow = 0.42 * smoothstep(-0.02, -0.26, y + 0.05 * x * x)
     return _picture(colours * (1 - lid_shadow[..., None]))
-
-
-def teeth_picture(width: int = 512, height: int = 128, rows: int = 12) -> Image.Image:
-    """Gums above, crowns in the middle, the dark back below; the molars fade into the mouth's shadow."""
-    noise = Noise(0)
-    row = ((np.arange(height) + 0.5) / height * (rows - 1))[:, None]
-    column = np.arange(width)[None]
-    grain = noise(np.stack(np.broadcast_arrays(column * 0.05, row * 2.0, 0.0 * row), -1), 1)[..., None]
-    row = row[..., None]
-    tooth = np.array([0.93, 0.90, 0.82]) * (1 - 0.06 * smoothstep(5.5, 3.0, row)) * (1 + 0.015 * grain)
-    gum = smoothstep(3.35, 2.75, row)
-    colours = tooth * (1 - gum) + np.array([0.72, 0.38, 0.37]) * (1 + 0.07 * grain) * gum
-    back = smoothstep(8.3, 9.2, row)
-    colours = colours * (1 - back) + np.array([0.24, 0.13, 0.12]) * back
-    aside = np.abs((column + 0.5) / width * 2 - 1)[..., None]
-    return _picture(colours * (1 - 0.80 * smoothstep(0.34, 0.80, aside)))

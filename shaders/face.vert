@@ -19,6 +19,7 @@ out vec3 surface_light;
 out vec3 surface_half;                 // halfway between the eye and the highlight's light
 #else
 out vec3 surface_view;
+out vec3 surface_position;              // the model's space
 #endif
 #endif
 
@@ -70,6 +71,7 @@ void main() {
     surface_half = normalize(shine_direction + view);
 #else
     surface_view = view;
+    surface_position = position;
 #endif
 #endif
 #ifdef TEXTURED

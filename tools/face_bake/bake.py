@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from .hair_atlas import hair_picture
 from .head import Body, Head
 from .landmarks import find_landmarks
 from .mouth_textures import gum_picture, teeth_picture, tongue_picture
@@ -40,12 +41,12 @@ class Bakery:
             layout = self._shape_layout if recipe else self._neutral_layout
             write_obj(folder / f"{expression}.obj", f"{person.name}, {expression}", points, layout)
         write_shapes(folder / "shapes.npz", body, self._source.arkit_names(), self._regions)
-        write_mtl(folder / "face.mtl")
+        write_mtl(folder / "face.mtl", person.look)
         write_toml(folder / "face.toml", person, [e for e in EXPRESSIONS if e != "neutral"], self._landmarks)
         self._pictures(person, body, folder)
 
     def _pictures(self, person: Person, body: Body, folder: Path):
         self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
         eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
-        for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):
-            paint(person.look).save(folder / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)
+        teeth_picture().save(folder / "teeth.png", optimize=True)
+        hair_picture(person.look).save(folder / "hair.png", optimize=True)

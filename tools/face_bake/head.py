@@ -5,7 +5,7 @@ import numpy as np
 from .adapt import AdaptiveMesh, build_adaptive_mesh, choose_faces, rank_faces
 from .cage import build_cage
 from .finemesh import build_fine_mesh
-from .hair import scalp_lift
+from .hair_part import HairPart
 from .lashes import LashesPart
 from .mouth_fit import MouthFit
 from .mouth_room import MouthRoom
@@ -20,7 +20,6 @@ from .recipes import EXPRESSIONS
 from .seal import LipSeal
 from .shaping import Shaper
 from .source import Source
-from .subdivide import vertex_normals
 
 SKIN_VERTICES = 8100
 CENTIMETRES = 10.0
@@ -60,6 +59,7 @@ class Head:
             Teeth(upper=False),
             Tongue(),
             self.lashes,
+            HairPart.of(self.fine, self.source),
         ]
 
     def group(self, name: str) -> Group:
@@ -74,10 +74,6 @@ class Body:
         self.shaper = Shaper(head.source, person, head.seal)
         self.neutral, fine = self.shaper.neutral, head.fine
         self._rest = fine.operator @ self.neutral
-        self.mouth = MouthFit(fine, head.seal, self._rest, self.neutral)
-        self._mouth_room = MouthRoom(fine, head.seal, self._rest, self.mouth)
-        lift = scalp_lift(fine, head.source.base.points, person.look)
-        self.scalp = lift[:, None] * vertex_normals(self._rest, fine.triangles)
         height = self.neutral[EYE_VERTICES[0]].mean(0)[1]
         self._origin = np.array([0, height, self.neutral[EYE_JOINTS].mean(0)[2]])
 
@@ -85,7 +81,7 @@ class Body:
         return Posed(self, shape)
 
     def fine_skin(self, shape: np.ndarray) -> np.ndarray:
-        """All fine skin vertices in base-mesh space, without hair."""
+        """All fine skin vertices in base-mesh space."""
         points = self.head.fine.operator @ shape
         points = push_out(points, self._rest, self.head.fine.on_head, shape, self.neutral)
         return self._mouth_room.clear(points, shape, self.neutral)

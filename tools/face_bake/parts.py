@@ -43,7 +43,7 @@ class Posed:
 
     @cached_property
     def skin(self) -> np.ndarray:
-        """All fine skin vertices, without hair."""
+        """All fine skin vertices."""
         return self.body.fine_skin(self.shape)
 
 

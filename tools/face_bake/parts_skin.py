@@ -9,7 +9,7 @@ from .parts import PartGroup, Posed
 
 
 class SkinPart:
-    """Those fine vertices that the adaptive mesh keeps, with the hair's lift."""
+    """Those fine vertices that the adaptive mesh keeps."""
 
     def __init__(self, mesh: AdaptiveMesh, fine: FineMesh):
         self._pick, self.uv = mesh.pick, fine.uv[mesh.pick_uv]
@@ -20,4 +20,4 @@ class SkinPart:
         ]
 
     def place(self, posed: Posed) -> np.ndarray:
-        return (posed.skin + posed.body.scalp)[self._pick]
+        return posed.skin[self._pick]

@@ -5,6 +5,7 @@ from PIL import Image
 from scipy.spatial import cKDTree
 
 from .cage import HEAD, MOUTH
+from .hair import growth
 from .head import Body, Head
 from .occlusion import visible_sky
 from .raster import Raster
@@ -13,8 +14,10 @@ from .source import mask_at
 from .strips import catmull_rom
 
 FAR = 9.0
+# What the hair above leaves of the light on the scalp.
+ROOT_LIGHT = 0.62
 # What casts shade on the skin beside itself.
-SOLIDS = ("eye_L", "eye_R", "teeth_upper", "teeth_lower")
+SOLIDS = ("eye_L", "eye_R", "teeth_upper", "teeth_lower", "hair")
 
 
 class Painter:
@@ -24,7 +27,8 @@ class Painter:
         self._head, fine = head, head.fine
         self._triangles, uv_triangles = fine.triangles, fine.uv_triangles
         self._raster = Raster(fine.uv, uv_triangles, size)
-        points = self._raster.sample(fine.operator @ head.source.base.points, self._triangles)
+        self._base = fine.operator @ head.source.base.points
+        points = self._raster.sample(self._base, self._triangles)
         source_uv = self._raster.sample(fine.source_uv, uv_triangles)
         island = np.repeat(fine.island, 2)[self._raster.owner]
         upper, lower = (self._lid_distance(points, upper) for upper in (True, False))
@@ -52,7 +56,9 @@ class Painter:
         """The skin of a person with the occlusion of the neutral face baked in."""
         neutral = body.shaper.neutral
         blockers = body.solids(neutral, SOLIDS)
-        skin = body.fine_skin(neutral) + body.scalp
+        skin = body.fine_skin(neutral)
         light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
+        # Roots are painted dark already: shaded once more they would be black between the strands.
+        light = np.maximum(light, ROOT_LIGHT * (growth(self._base, body.person.look) > 0))
         colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
         return Image.fromarray(self._raster.picture(colours))

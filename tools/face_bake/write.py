@@ -4,8 +4,9 @@ from pathlib import Path
 
 import numpy as np
 
+from .hair_atlas import hair_material
 from .head import Head
-from .people import Person
+from .people import Look, Person
 
 CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
 LICENCE = "CC0-1.0"
@@ -18,7 +19,9 @@ MATERIALS = {
     "gum": ((1, 1, 1), 0.35, 50, "gum.jpg"),
     "tongue": ((1, 1, 1), 0.3, 30, "tongue.jpg"),
     "lash": ((0.005, 0.0035, 0.003), 0.0, 10, None),
+    "hair": None,
 }
+SEE_THROUGH = ("hair",)
 
 
 def layout_text(head: Head, *, textured: bool) -> str:
@@ -52,11 +55,14 @@ def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
     path.write_text("\n".join(head + vertices) + "\n" + layout, encoding="ascii", newline="\n")
 
 
-def write_mtl(path: Path):
+def write_mtl(path: Path, look: Look):
     lines = [f"# {LICENCE}"]
-    for name, (colour, shine, exponent, picture) in MATERIALS.items():
+    materials = MATERIALS | {"hair": hair_material(look)}
+    for name, (colour, shine, exponent, picture) in materials.items():
         diffuse, specular = (" ".join(f"{part:g}" for part in value) for value in (colour, (shine,) * 3))
         lines += [f"newmtl {name}", f"Kd {diffuse}", f"Ks {specular}", f"Ns {exponent}", "illum 2"]
+        # Not quite opaque: readers of OBJ then draw it last, blended over what lies behind it.
+        lines += ["d 0.995"] if name in SEE_THROUGH else []
         lines += [f"map_Kd {picture}"] if picture else []
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 from facemorph.core.mesh import Material
@@ -45,12 +45,16 @@ EYE = Finish(
 TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.20, sharpness=60.0, sheen=0.0, shade=0.74)
 TONGUE = Finish(wrap=(0.40, 0.20, 0.17), gloss=0.10, sharpness=36.0, sheen=0.0, shade=0.7)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
+HAIR = Finish(
+    wrap=(0.36, 0.30, 0.26), gloss=1.0, sharpness=70.0, sheen=0.9, shader="hair.frag", by_pixel=True
+)
 CLAY = Finish(wrap=(0.22, 0.20, 0.18), gloss=0.05, sharpness=18.0, sheen=1.0)
 
 # A name contains the word; the first that fits is taken, so "eyelash" is a lash and no eye.
 _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("lash", LASH),
     ("brow", LASH),
+    ("hair", HAIR),
     ("teeth", TEETH),
     ("tooth", TEETH),
     ("tongue", TONGUE),
@@ -78,6 +82,7 @@ _STAND_INS: Mapping[Finish, Colour] = MappingProxyType(
         TEETH: (0.62, 0.56, 0.46),
         TONGUE: (0.32, 0.06, 0.055),
         LASH: (0.010, 0.008, 0.007),
+        HAIR: (0.020, 0.013, 0.009),
     }
 )
 # From this factor on, a colour is no paint but lets its texture through unchanged.
@@ -99,9 +104,14 @@ def finish_of(material: Material) -> Finish:
     name = material.name.casefold()
     for word, finish in _BY_WORD:
         if word in name:
-            return finish
+            return finish if finish is not HAIR else _hair_of(material)
     if material.name == "":
         return SKIN
     strength = sum(material.specular) / 3.0
     sharpness = min(max(material.shininess, 4.0), 400.0)
     return Finish(CLAY.wrap, min(max(strength, 0.0), 1.0) * 0.5, sharpness, CLAY.sheen)
+
+
+def _hair_of(material: Material) -> Finish:
+    """Hair that shines as its file says: coils scatter what straight hair throws back."""
+    return replace(HAIR, gloss=min(max(sum(material.specular), 0.0), 1.5) / 0.9)

@@ -1,0 +1,186 @@
+"""The hair's picture: strands for the sheet above, eight tiles of locks with ragged tips below.
+
+Strands run down the picture, so that a PNG's rows resemble each other and the file stays small. It has
+a palette of tones at eight opacities. Tones are relative to the lightest strand of a person, whose colour
+is the material's: a renderer can tell strands apart by them on the blackest hair.
+"""
+
+import numpy as np
+from PIL import Image
+from scipy.ndimage import gaussian_filter
+
+from .hair_strokes import Coils, Strokes, ragged, swing
+from .hair_styles import STYLES, Texture
+from .paintkit import smoothstep
+from .people import Look
+
+WIDTH, SHEET_HEIGHT, TILE_HEIGHT = 1024, 512, 256
+HEIGHT = SHEET_HEIGHT + TILE_HEIGHT
+TILES = 8
+# The sheet's picture goes round the head so many times.
+SHEET_REPEATS = 3.0
+# v of the sheet's roots and tips; the border keeps mip levels of the tiles apart.
+BORDER = 4
+SHEET_ROWS = 1 - BORDER / HEIGHT, 1 - (SHEET_HEIGHT - BORDER) / HEIGHT
+TONES, OPACITIES = 32, 8
+# Tiles from dense to thin: strands, and how much of half the tile they fill.
+DENSITY = (120, 105, 95, 80, 46, 34, 22, 12)
+SPREAD = (0.40, 0.38, 0.36, 0.34, 0.34, 0.32, 0.36, 0.30)
+CLUMPS = 46
+
+
+def tile_box(tile: int) -> tuple[float, float, float, float]:
+    """Left, bottom, right and top of a tile of locks."""
+    width = WIDTH / TILES
+    left, right = tile * width + BORDER, (tile + 1) * width - BORDER
+    return left / WIDTH, BORDER / HEIGHT, right / WIDTH, (TILE_HEIGHT - BORDER) / HEIGHT
+
+
+def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
+    """Broad locks, then strands; dark at the roots and between locks, ragged at the tips."""
+    strokes = Strokes(WIDTH, SHEET_HEIGHT, wraps=True)
+    rows, wave = strokes.rows, texture.wave
+    light = 0.24 + 0.26 * smoothstep(0.0, 0.30, rows)
+    clump_tone = rng.uniform(-0.15, 0.15, CLUMPS)
+    clump_swing = [swing(rows, rng, 7 * wave) for _ in range(CLUMPS)]
+    short = texture.strand < 1
+    strokes.opacity[:] = (
+        smoothstep(1 - 0.45 * texture.ragged, 1 - texture.ragged, rows)[:, None] if short else 1
+    )
+    strokes.tone[:] = (0.6 * light)[:, None]
+    for _ in range(int(1500 / texture.strand)):
+        x0 = rng.uniform(0, WIDTH)
+        clump = int(x0 / WIDTH * CLUMPS)
+        x = x0 + clump_swing[clump] + swing(rows, rng, 2.5)
+        # Between two locks it is darker.
+        depth = 0.22 * abs((x0 / WIDTH * CLUMPS) % 1 - 0.5) * 2
+        tone = light + clump_tone[clump] + rng.normal(0, 0.13 * texture.contrast) - depth
+        width, opacity = np.full(SHEET_HEIGHT, rng.uniform(0.8, 2.4)), np.full(SHEET_HEIGHT, 0.8)
+        if short:
+            length = texture.strand * rng.uniform(0.7, 1.2)
+            start = rng.uniform(-texture.strand, 1)
+            # Towards the hairline single hairs are left, and ever fewer.
+            if (start + length - 1) / texture.ragged + 0.55 > rng.uniform():
+                continue
+            t = (rows - start) / length
+            # A short hair comes out of the dark and ends in a light tip over the next ones.
+            opacity = 0.85 * smoothstep(0, 0.35, t) * smoothstep(1.0, 0.93, t)
+            tone = tone - 0.10 + 0.22 * np.clip(t, 0, 1)
+            x = x + 14 * texture.wave * (t - 0.5) * rng.normal(0, 1)
+        strokes.strand(x, width, tone, opacity)
+    reach = ragged(WIDTH, texture.ragged * (0.25 if short else 1.0), rng)
+    strokes.opacity *= smoothstep(0.0, -0.04, rows[:, None] - reach[None])
+    return strokes
+
+
+def _straight_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Strokes:
+    """A lock: many strands that gather towards the tip; later tiles are thinner."""
+    width = WIDTH // TILES
+    strokes = Strokes(width, TILE_HEIGHT)
+    rows, spread, wave = strokes.rows, SPREAD[tile], texture.wave
+    gather, shared = rng.uniform(0.35, 0.65), swing(rows, rng, 5 * wave)
+    dark = rng.uniform(-0.05, 0.05)
+    points = rng.uniform(-1, 1, 3) * spread * 0.7
+    for _ in range(DENSITY[tile]):
+        at = rng.uniform(-1, 1) * spread
+        goal = points[np.argmin(np.abs(points - at))]
+        place = at + (goal - at) * gather * rows**1.5
+        x = width * (0.5 + place) + shared + swing(rows, rng, 1.2 + 2 * wave) * rows
+        length = np.clip(rng.normal(0.86, 0.10), 0.45, 1.0) - 0.10 * abs(at / spread)
+        thick = rng.uniform(1.0, 2.0) * np.clip(1.25 - rows / max(length, 0.1) * 0.8, 0.25, 1)
+        tone = 0.27 + 0.15 * smoothstep(0, 0.4, rows) + dark + rng.normal(0, 0.12 * texture.contrast)
+        opacity = smoothstep(length, length - 0.12, rows) * smoothstep(0.0, 0.08 + 0.25 * rng.uniform(), rows)
+        strokes.strand(x, thick, tone, opacity)
+    return strokes
+
+
+def _coiled_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
+    """Coils in every direction, the upper ones lighter; between them it is dark."""
+    coils, radius = Coils(WIDTH, SHEET_HEIGHT, wraps=True), texture.curl
+    # Coils gather in tufts that catch light on top and leave it dark between them.
+    tufts = gaussian_filter(rng.standard_normal((SHEET_HEIGHT, WIDTH)), (9, 18), mode=("nearest", "wrap"))
+    tufts = np.clip(0.85 + 0.32 * tufts / tufts.std(), 0.35, 1.35)
+    for layer, count in enumerate((1100, 1000, 800)):
+        for _ in range(count):
+            start = rng.uniform(0, WIDTH), rng.uniform(-20, SHEET_HEIGHT)
+            step = rng.normal(0, 1.2 * radius), rng.normal(0, 1.0 * radius)
+            size = radius * rng.uniform(0.6, 1.2)
+            tone = (0.30, 0.50, 0.72)[layer] * rng.uniform(0.75, 1.2)
+            coils.coil(start, step, (size, size * 0.55), rng.uniform(1.5, 3.5), tone, 1.4, rng)
+    strokes = coils.strokes()
+    strokes.tone *= tufts
+    strokes.opacity[:] = 1
+    # Towards the tips only the upper coils are left, one by one.
+    past = (strokes.rows - 1) / texture.ragged + 1
+    strokes.opacity *= smoothstep(0.0, 0.12, strokes.tone - 0.62 * np.clip(past, -1, 1)[:, None])
+    strokes.opacity[-BORDER * 2 :] = 0
+    return strokes
+
+
+def _coiled_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Strokes:
+    """A tuft of coils that thins out towards its end and its sides."""
+    width = WIDTH // TILES
+    coils, radius = Coils(width, TILE_HEIGHT), texture.curl * 0.62
+    for k in range(DENSITY[tile] * 2 // 3 + 8):
+        out = rng.beta(1.3, 1.8)
+        across = np.clip(rng.normal(0, 0.16), -0.34, 0.34) * (1.15 - 0.5 * out)
+        start = width * (0.5 + across), 14 + out * (TILE_HEIGHT - 64)
+        step = rng.normal(0, 5), rng.uniform(-16, 26)
+        tone = (0.40 + 0.5 * k / DENSITY[tile]) * rng.uniform(0.8, 1.2)
+        size = radius * rng.uniform(0.7, 1.25)
+        coils.coil(start, step, (size, size * 2.2), rng.uniform(1.2, 2.6), tone, 1.5, rng)
+    return coils.strokes()
+
+
+def hair_picture(look: Look) -> Image.Image:
+    """The picture of a person's hair, with a palette."""
+    rng, texture = np.random.default_rng(5), STYLES[look.hair_style].texture
+    paint_sheet, paint_tile = (
+        (_coiled_sheet, _coiled_tile) if texture.curl else (_straight_sheet, _straight_tile)
+    )
+    sheet = paint_sheet(texture, rng)
+    tiles = [paint_tile(tile, texture, rng) for tile in range(TILES)]
+    tone = np.concatenate([sheet.tone, np.concatenate([t.tone for t in tiles], 1)])
+    opacity = np.concatenate([sheet.opacity, np.concatenate([t.opacity for t in tiles], 1)])
+    return _with_palette(tone, opacity, look)
+
+
+def _with_palette(tone: np.ndarray, opacity: np.ndarray, look: Look) -> Image.Image:
+    tones = np.clip(np.round(tone * (TONES - 1)), 0, TONES - 1).astype(np.uint8)
+    # The top level is exactly opaque, so that the sheet has no veil over what lies behind it.
+    levels = np.clip(np.round(opacity * (OPACITIES - 1)), 0, OPACITIES - 1).astype(np.uint8)
+    image = Image.fromarray(levels * TONES + tones, "P")
+    relative = _shades(look) / linear(lightest(look))
+    image.putpalette(np.tile(np.round(255 * stored(relative)).astype(np.uint8), (OPACITIES, 1)).tobytes())
+    alpha = np.repeat(np.round(np.linspace(0, 255, OPACITIES)), TONES).astype(np.uint8)
+    image.info["transparency"] = alpha.tobytes()
+    return image
+
+
+def lightest(look: Look) -> np.ndarray:
+    """The lightest strand's colour (3,), sRGB 0..1."""
+    return np.clip(np.array(look.hair) * 1.75 + 0.06, 0, 1)
+
+
+def hair_material(look: Look) -> tuple:
+    """Colour (linear light), shine, exponent and picture."""
+    colour = tuple(np.round(linear(lightest(look)), 4).tolist())
+    return colour, 0.3 * STYLES[look.hair_style].texture.gloss, 40, "hair.png"
+
+
+def linear(srgb: np.ndarray) -> np.ndarray:
+    return np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def stored(light: np.ndarray) -> np.ndarray:
+    """sRGB of linear light, 0..1."""
+    return np.where(light <= 0.0031308, light * 12.92, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+def _shades(look: Look) -> np.ndarray:
+    """Linear colours (TONES, 3) from the depth between locks to the lightest strand."""
+    hair, level = np.array(look.hair), np.linspace(0, 1, TONES)[:, None]
+    light = lightest(look)
+    return linear(
+        np.where(level < 0.5, hair * (0.28 + 1.44 * level), hair + (light - hair) * (level - 0.5) * 2)
+    )

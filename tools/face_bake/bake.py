@@ -48,5 +48,6 @@ class Bakery:
     def _pictures(self, person: Person, body: Body, folder: Path):
         self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
         eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
-        teeth_picture().save(folder / "teeth.png", optimize=True)
+        for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):
+            paint(person.look).save(folder / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)
         hair_picture(person.look).save(folder / "hair.png", optimize=True)

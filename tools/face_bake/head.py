@@ -74,6 +74,8 @@ class Body:
         self.shaper = Shaper(head.source, person, head.seal)
         self.neutral, fine = self.shaper.neutral, head.fine
         self._rest = fine.operator @ self.neutral
+        self.mouth = MouthFit(fine, head.seal, self._rest, self.neutral)
+        self._mouth_room = MouthRoom(fine, head.seal, self._rest, self.mouth)
         height = self.neutral[EYE_VERTICES[0]].mean(0)[1]
         self._origin = np.array([0, height, self.neutral[EYE_JOINTS].mean(0)[2]])
 

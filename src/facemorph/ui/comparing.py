@@ -18,6 +18,7 @@ from facemorph.deform.rebuild import control_vertices, rebuilt
 from facemorph.errors import FacemorphError
 from facemorph.ui.actions import tell_error
 from facemorph.ui.lab import Paths
+from facemorph.ui.methods import OWN
 from facemorph.ui.state import App
 from facemorph.ui.words import METHOD_WORDS
 
@@ -41,7 +42,7 @@ def refresh_paths(app: App, rig: Rig, vertex: int) -> None:
         return
     page.asked = asked
     # The window's own binding is not for other threads: it keeps what it made last.
-    bound = BoundControls(rig, app.face.title if app.face else "", dict(app.methods.people), app.painted)
+    bound = BoundControls(rig, OWN, dict(app.methods.people), app.painted)
 
     def work(progress: Progress) -> Paths:
         return paths(rig, vertex, pose, controls, bound, progress)

@@ -11,11 +11,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from imgui_bundle import imgui
 
-from facemorph.core.facs import Sides, units_text
+from facemorph.core.facs import PROTOTYPES, Sides, units_text
 from facemorph.core.pose import Pose
 from facemorph.deform.handles import Handle, HandleSet
 from facemorph.deform.sides import SidedUnits
 from facemorph.ui import actions, handles, units
+from facemorph.ui.commands import commands
 from tests.ui.harness import Offscreen, ball_rig
 
 WEIGHT = st.floats(-1, 2).filter(lambda weight: abs(weight) > 0.01)
@@ -176,3 +177,24 @@ def test_resetting_the_face_puts_the_methods_to_rest_too(window: Offscreen) -> N
     units.set_unit(window.app, 12, Sides.both(1.0))
     window.run("Reset face")
     assert window.app.controls.facs == {}
+
+
+def test_every_prototype_and_the_text_have_commands(window: Offscreen) -> None:
+    app = window.app
+    window.run("FACS: happy")
+    assert app.controls.facs == {6: Sides.both(1.0), 12: Sides.both(1.0)}
+    window.run("FACS: copy units")
+    window.run("FACS: reset")
+    assert app.controls.facs == {}
+    window.run("FACS: paste units")
+    assert app.controls.facs == {6: Sides.both(1.0), 12: Sides.both(1.0)}
+    titles = {command.title for command in commands(app)}
+    assert {f"FACS: {emotion}" for emotion in PROTOTYPES} <= titles
+
+
+def test_a_prototype_of_which_the_face_has_nothing_cannot_be_run(opengl: None) -> None:
+    with Offscreen(ball_rig(facs=("AU12",))) as window:
+        able = {
+            c.title for c in commands(window.app) if c.title.startswith("FACS: ") and c.enabled(window.app)
+        }
+        assert able == {"FACS: happy", "FACS: copy units", "FACS: paste units"}

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from facemorph.ui.commands import MENUS, Command, commands
+from facemorph.ui.command import Command
+from facemorph.ui.commands import MENUS, commands
 from facemorph.ui.layout import Layout
 from facemorph.ui.state import App
 from facemorph.ui.widgets import cut, tooltip, unit
 
 # Submenus hang in their menu before the commands of this group.
-_SUBMENUS = {"File": ("Open recent", "Built-in faces")}
+_SUBMENUS = {
+    "File": ("Open recent", "Built-in faces"),
+    "Edit": ("Handles", "Regions"),
+    "Expression": ("FACS units",),
+}
 _SUBMENU_GROUP = 1
 
 

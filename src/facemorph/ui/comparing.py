@@ -154,7 +154,7 @@ def scene_by(app: App, rig: Rig, method: str) -> Scene:
             controls = replace(controls, off=controls.off | {layer})
     elif method == REBUILT:
         return _rebuilt_scene(app, rig, pose)
-    return Scene.moved(pose, app.methods.bound(app)(pose, controls))
+    return app.methods.made(app.methods.bound(app), pose, controls)
 
 
 def _target_name(app: App, rig: Rig) -> str:
@@ -166,7 +166,7 @@ def _rebuilt_scene(app: App, rig: Rig, pose: Pose) -> Scene:
     """The slider's way to the target as n points know it: e times the rebuilt displacement (2.13)."""
     way = np.float32(eased(pose.t, pose.curve)) * _rebuilt_way(app, rig, pose)
     still = replace(pose, target=pose.source, t=0.0)
-    scene = Scene.moved(still, app.methods.bound(app)(still, app.controls))
+    scene = app.methods.made(app.methods.bound(app), still, app.controls)
     return replace(scene, offsets=way if scene.offsets is None else scene.offsets + way)
 
 

@@ -34,7 +34,12 @@ _BASE, _DELTAS, _ACTIVE, _POSITIONS, _RINGS, _RING_CORNERS = range(6)
 
 
 class ShaderMorph:
-    """Fills a surface's morphed buffer from a pose. `passes` counts morphing passes drawn."""
+    """Fills a surface's morphed buffer from a pose. `passes` counts morphing passes drawn.
+
+    vertices  None: only the card knows positions and normals
+    """
+
+    vertices: Float32 | None = None
 
     def __init__(
         self,

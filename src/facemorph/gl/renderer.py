@@ -47,7 +47,9 @@ SAMPLES = 4
 
 
 class Morph(Protocol):
-    """A way to fill a surface's morphed buffer."""
+    """A way to fill a surface's morphed buffer; `vertices` (V, 6) are what it holds, None where unknown."""
+
+    vertices: Float32 | None
 
     def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
         """Morph to `pose` plus `offsets` (V, 3)."""
@@ -104,6 +106,7 @@ class Renderer:
         self._shown: _Shown | None = None
         self._drawn: tuple[Camera, tuple[int, int]] | None = None
         self._legend: Legend | None = None
+        self._followed: object = None
 
     def load(self, rig: Rig) -> None:
         """Take `rig` in place of the one before, which stays where this raises.
@@ -163,8 +166,9 @@ class Renderer:
         kept from 0 to 1 as `colour_shares` does. Other partners rebuild what is drawn of the mesh once (so
         keep those of weight 0 listed while a weight is dragged), other weights nothing.
 
-        quality   "fast" leaves out antialiasing where OpenGL runs on the CPU (it doubles the frame
-                  there): for frames while something moves; "full" for still ones and pictures
+        quality   "fast" leaves out, where OpenGL runs on the CPU, antialiasing (it doubles the frame
+                  there) and insides that are hidden: for frames while something moves; "full" for
+                  still ones and pictures
         exactly   morph in full, so that equal arguments give equal pixels whatever was drawn before
 
         Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
@@ -184,6 +188,7 @@ class Renderer:
             look = self._with_heat_end(look, scene, rig)
             if scene.glow is not None:
                 surface.give("glow", scene.glow)
+            self._watch_insides(surface, hurried=hurried)
             framebuffer = self._target.prepare(size, samples)
             shares = colour_shares(rig.neutral, scene.partners)
             self._painter.paint(
@@ -193,6 +198,7 @@ class Renderer:
                 look,
                 size,
                 glowing=scene.glow is not None,
+                hurried=hurried,
                 shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *surface.partners)],
             )
             self._target.finish(framebuffer)
@@ -264,6 +270,18 @@ class Renderer:
         self._morph.update(scene.pose, scene.offsets, exactly=exactly)
         self._shown = _Shown(scene.pose, coefficients, scene.offsets, exactly)
         self.stats.morphs += 1
+        self._followed = None
+
+    def _watch_insides(self, surface: Surface, *, hurried: bool) -> None:
+        """Let the surface know the pose, once insides may be left out; first asked for when it hurries."""
+        vertices = self._morph.vertices if self._morph is not None else None
+        if vertices is None:
+            return
+        if hurried:
+            surface.find_shell()
+        if surface.insides is not None and self._followed is not surface.insides:
+            surface.insides.follow(vertices[:, :3], vertices[:, 3:])
+            self._followed = surface.insides
 
     def _with_heat_end(self, look: Look, scene: Scene, rig: Rig) -> Look:
         """`look` with the heat map's end settled, what it measures from uploaded, and its legend made."""

@@ -18,7 +18,9 @@ from facemorph.core.rig import plain_label
 from facemorph.ui import actions, files
 from facemorph.ui.chord import Chord
 from facemorph.ui.command import Command, always, has_expressions, has_face, has_shapes
+from facemorph.ui.emotion_commands import EMOTION
 from facemorph.ui.method_commands import METHOD_COMMANDS
+from facemorph.ui.page_commands import page_commands
 from facemorph.ui.state import App
 from facemorph.ui.words import NEUTRAL_LABEL
 
@@ -143,12 +145,12 @@ HELP = (
     Command("About facemorph", actions.show_about, "Help", (), 1),
 )
 
-STATIC = FILE + EDIT + SLIDER + VIEW + METHOD_COMMANDS + HELP
+STATIC = FILE + EDIT + SLIDER + VIEW + EMOTION + METHOD_COMMANDS + HELP
 
 
 def commands(app: App) -> tuple[Command, ...]:
     """Every command there is now, in the menus' order."""
-    return (*_opening(app), *_expressions(app), *STATIC)
+    return (*_opening(app), *_expressions(app), *page_commands(), *STATIC)
 
 
 def _expressions(app: App) -> tuple[Command, ...]:

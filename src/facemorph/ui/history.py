@@ -7,6 +7,7 @@ drag is one step, and no way of changing a face can be forgotten.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -51,6 +52,11 @@ class History:
             self._future.clear()
             self._forget()
         self.present = now
+
+    def carry(self, moved: Callable[[Snapshot], Snapshot]) -> None:
+        """Let the present snapshot go along with what moves by itself, so that no step comes of it."""
+        if self.present is not None:
+            self.present = moved(self.present)
 
     def undo(self, now: Snapshot) -> Snapshot | None:
         """The snapshot one step back, or None at the beginning."""

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from facemorph.ui.emotion_page import EmotionPage
+
 
 @dataclass
 class Pages:
-    """The FACS page: the set shown, the unit whose balance is open, balances of units at rest."""
+    """The FACS page: the set shown, the unit whose balance is open, balances of units at rest.
+
+    emotion   what the Emotion page keeps
+    """
 
     set: str = "FACS"
     unit_open: int = 0
     balances: dict[int, float] = field(default_factory=dict)
+    emotion: EmotionPage = field(default_factory=EmotionPage)

@@ -21,6 +21,7 @@ from facemorph.ui.command import Command, always, has_expressions, has_face, has
 from facemorph.ui.emotion_commands import EMOTION
 from facemorph.ui.method_commands import METHOD_COMMANDS
 from facemorph.ui.page_commands import page_commands
+from facemorph.ui.people_commands import PEOPLE
 from facemorph.ui.state import App
 from facemorph.ui.words import NEUTRAL_LABEL
 
@@ -145,7 +146,7 @@ HELP = (
     Command("About facemorph", actions.show_about, "Help", (), 1),
 )
 
-STATIC = FILE + EDIT + SLIDER + VIEW + EMOTION + METHOD_COMMANDS + HELP
+STATIC = FILE + EDIT + SLIDER + VIEW + EMOTION + PEOPLE + METHOD_COMMANDS + HELP
 
 
 def commands(app: App) -> tuple[Command, ...]:

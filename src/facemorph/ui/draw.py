@@ -18,6 +18,7 @@ def draw_ui(app: App) -> None:
     layout = laid_out(app)
     app.methods.hovered = {}
     app.pages.emotion.wanted = ()
+    app.pages.people.wanted = {}
     run_hotkeys(app)
     for part in parts():
         part(app, layout)

@@ -2,29 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
 from imgui_bundle import imgui
 
-from facemorph.core.arrays import Float32, UInt8
-from facemorph.core.camera import Camera
 from facemorph.core.mesh import Mesh
-from facemorph.core.picture import Look
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig, Shape
 from facemorph.errors import FacemorphError
 from facemorph.ui.handles import MADE
+from facemorph.ui.portraits import PORTRAIT_LOOK, SIDE, halved, portrait
 from facemorph.ui.split_view import DrawsFaces
 from facemorph.ui.state import App
 
 if TYPE_CHECKING:
     import moderngl
-
-SIDE = 128
-BACKGROUND = (0.20, 0.21, 0.23, 1.0)
-_LANDMARKS = 12  # so many, and they tell where the face on the head is
 
 
 class PolePictures:
@@ -79,8 +71,7 @@ class PolePictures:
     def _draw(self, rig: Rig, shape: Shape, renderer: DrawsFaces) -> None:
         try:
             large = (2 * SIDE, 2 * SIDE)
-            look = Look(background=BACKGROUND)
-            renderer.draw(Pose.of({shape.name: 1.0}), portrait(rig), look, large)
+            renderer.draw(Pose.of({shape.name: 1.0}), portrait(rig), PORTRAIT_LOOK, large)
             pixels = halved(renderer.read())
         except FacemorphError:
             # A pole without a picture still has its name.
@@ -110,30 +101,6 @@ class PolePictures:
         self._old.clear()
 
 
-def portrait(rig: Rig) -> Camera:
-    """A camera that sees the face from brows to chin where the rig tells where they are, else the whole."""
-    vertices = [landmark.vertex for landmark in rig.info.landmarks]
-    if len(vertices) < _LANDMARKS:
-        return Camera.framing(rig.neutral.bounds)
-    points: Float32 = rig.neutral.positions[vertices]
-    camera = Camera.framing(np.stack([points.min(axis=0), points.max(axis=0)]))
-    low = camera.target[1] - 0.07 * float(np.ptp(points[:, 1]))  # jaws drop
-    whole = Camera.framing(rig.neutral.bounds)
-    return replace(
-        camera,
-        target=(camera.target[0], low, camera.target[2]),
-        distance=camera.distance * 0.94,
-        scene_radius=whole.scene_radius,
-    )
-
-
 def _source(rig: Rig, shape: Shape) -> object:
     """What a picture holds for: the head, but the very rig for a shape that was made and may be made anew."""
     return rig if shape.set == MADE else rig.neutral
-
-
-def halved(pixels: UInt8) -> UInt8:
-    """Every four pixels as one, (2H, 2W, 4) to (H, W, 4)."""
-    height, width, channels = pixels.shape
-    blocks = pixels.reshape(height // 2, 2, width // 2, 2, channels).astype(np.float32)
-    return np.ascontiguousarray(blocks.mean(axis=(1, 3)).round().astype(np.uint8))

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 MOST_STEPS = 300
 # A rig holds tens of megabytes, so older faces are let go together with the steps that need them.
 MOST_FACES = 4
+MOST_PEOPLE = 16
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,12 @@ class Snapshot:
     shapes_on: bool
     controls: Controls = field(default_factory=Controls)
     painted: RegionSet | None = None
+
+    @property
+    def people(self) -> set[str]:
+        """Everybody in the mixture, by name."""
+        mix = self.controls.people.mix
+        return set() if mix is None else {*mix.source, mix.target}
 
 
 @dataclass
@@ -68,6 +75,12 @@ class History:
         self.settle(now, busy=False)
         return self._move(self._future, self._past)
 
+    def people(self) -> set[str]:
+        """Everybody whom some step needs, by name."""
+        steps = [snapshot for snapshot, _ in (*self._past, *self._future)]
+        kept = steps if self.present is None else [*steps, self.present]
+        return {name for snapshot in kept for name in snapshot.people}
+
     @property
     def undo_words(self) -> str:
         """What undo would take back, or "" where there is nothing."""
@@ -91,10 +104,12 @@ class History:
     def _forget(self) -> None:
         del self._past[: max(len(self._past) - MOST_STEPS, 0)]
         faces: list[int] = []
+        people: set[str] = set()
         for place in range(len(self._past) - 1, -1, -1):
             key = id(self._past[place][0].face)
             if key not in faces:
                 faces.append(key)
-            if len(faces) > MOST_FACES:
+            people |= self._past[place][0].people
+            if len(faces) > MOST_FACES or len(people) > MOST_PEOPLE:
                 del self._past[: place + 1]
                 return

@@ -21,6 +21,7 @@ from facemorph.ui.draw import draw_ui
 from facemorph.ui.emotion_pictures import PolePictures
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
+from facemorph.ui.people_pictures import CornerPictures
 from facemorph.ui.plots import release_plots
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
@@ -44,6 +45,7 @@ class Session:
         self.renderer = renderer
         self.thumbnails = thumbnails
         self.poles = PolePictures()
+        self.corners = CornerPictures()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
@@ -75,6 +77,7 @@ class Session:
         moving = app.playback.playing or app.turntable or sliding(app) or app.pages.emotion.moves_by_itself
         waiting = app.arriving or app.chooser.fresh or (app.face and (app.framing or app.picture_path))
         thumbs = (self.thumbnails is not None and self.thumbnails.busy) or self.poles.busy(app)
+        thumbs = thumbs or self.corners.busy(app)
         if moving or waiting or thumbs or self._hurried:
             return 0.0
         if app.jobs.running or app.chooser.dialog is not None:
@@ -91,6 +94,7 @@ class Session:
         if self.thumbnails is not None:
             self.thumbnails.release()
         self.poles.release()
+        self.corners.release()
         self.renderer.release()
 
     def _begin(self, scale: float) -> None:
@@ -165,7 +169,7 @@ class Session:
             return
         if app.face is not self._loaded:
             self._load(app.face)
-        pictured = self.poles.step(app, self.renderer)
+        pictured = self.poles.step(app, self.renderer) or self.corners.step(app, self.renderer)
         if pictured:
             self._drawn = ()
         view = app.views()[0]

@@ -14,7 +14,7 @@ from facemorph.ui.widgets import cut, tooltip, unit
 _SUBMENUS = {
     "File": (1, ("Open recent", "Built-in faces")),
     "Edit": (1, ("Handles", "Regions")),
-    "Expression": (1, ("FACS units", "Emotion map")),
+    "Expression": (1, ("FACS units", "Emotion map", "People")),
     "View": (4, ("Page",)),
 }
 

@@ -78,6 +78,7 @@ def test_the_sheet_is_the_kept_one(screen: Offscreen, head: Rig) -> None:
     if not screen.renderer.graphics.software:
         pytest.skip("the kept pictures are a software renderer's")
     compare("sheet", sheet(screen, head, tile=(120, 140)))
+    compare("sheet-heat", sheet(screen, head, tile=(160, 180), look=Look(shading="heat")))
 
 
 def test_a_difference_is_noticed_and_written_down(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -18,10 +18,10 @@ from facemorph.core.correctives import Corrective, Hat
 from facemorph.core.normals import vertex_normals
 from facemorph.core.pose import Pose
 from facemorph.core.rig import FaceInfo, Rig, Shape
+from facemorph.gl.morph import Morph
 from facemorph.gl.morph_cpu import CpuMorph
 from facemorph.gl.morph_shader import ShaderMorph, vertex_rings
 from facemorph.gl.programs import Programs
-from facemorph.gl.renderer import Morph
 from facemorph.gl.surface import Surface
 from tests.gl.heads import many_shapes
 

@@ -21,6 +21,7 @@ from facemorph.deform.controls import Controls, PeopleControl
 from facemorph.deform.people import PeopleMix
 from facemorph.errors import CorrespondenceError, PoseError
 from facemorph.gl import Offscreen, Renderer
+from facemorph.gl.colours import blended_opacity
 from facemorph.ui.methods import OWN, Methods
 from facemorph.ui.state import App, Face
 from tests.gl.heads import head_rig
@@ -209,6 +210,17 @@ def test_polygons_are_drawn_with_each_ones_own_materials(screen: Offscreen, peop
     colour, wanted, own = (np.median(p[middle][..., :3], axis=(0, 1)) for p in (found, alone, skin))
     assert np.abs(colour - wanted).max() < 30
     assert np.abs(colour - own).max() > 40
+
+
+def test_opaque_people_stay_opaque_whatever_their_shares_sum_to_in_floats(
+    screen: Offscreen, people: list[Rig]
+) -> None:
+    clear = Look(background=(0.0, 0.0, 0.0, 0.0), shading="clay")
+    own = screen.render(people[0], POSE, size=SIZE, look=clear)
+    for count in (3, 6, 7, 9):
+        scene = mixed(people[:count], [1.0 / count] * (count - 1))
+        assert np.array_equal(screen.render(people[0], scene, size=SIZE, look=clear), own)
+        assert blended_opacity([Material("a")] * count, [1.0 / count] * count) == 1.0
 
 
 def test_more_people_than_can_be_mixed_and_others_heads_are_refused(

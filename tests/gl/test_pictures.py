@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from facemorph.core.lengths import lengths
 from facemorph.core.picture import Look
 from facemorph.core.rig import Rig, Shape
 from facemorph.errors import OptionError, UnknownNameError
-from facemorph.gl import Offscreen, render, sheet
+from facemorph.gl import Legend, Offscreen, render, sheet
 from facemorph.gl.labels import fitted, font, text_width
+from facemorph.gl.legend import legend_panel
 
 
 def test_one_picture_needs_one_call(head: Rig) -> None:
@@ -58,6 +61,35 @@ def contains(sheet_pixels: np.ndarray, tile: np.ndarray) -> bool:
             if np.array_equal(sheet_pixels[top : top + height, left : left + width], tile):
                 return True
     return False
+
+
+@pytest.mark.parametrize("given", [None, 0.7])
+def test_a_sheets_heat_maps_have_one_scale_and_one_legend(
+    screen: Offscreen, head: Rig, given: float | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn: list[Legend] = []
+
+    def kept(legend: Legend, width: int, letter: float) -> np.ndarray:
+        drawn.append(legend)
+        return legend_panel(legend, width, letter)
+
+    monkeypatch.setattr(sys.modules["facemorph.gl.sheet"], "legend_panel", kept)
+    tile = (120, 100)
+    pixels = sheet(screen, head, tile=tile, look=Look(shading="heat", heat_max=given))
+    largest = max(float(lengths(delta).max()) for delta in head.deltas)
+    (legend,) = drawn
+    assert legend.high == given if given else largest <= legend.high < 1.6 * largest
+    shared = Look(shading="heat", heat_max=legend.high)
+    for state in ({}, {"smile": 1.0}, {"brows": 1.0}, {"jaw": 1.0}):
+        assert contains(pixels, screen.render(head, state, size=tile, look=shared, legend=False)), state
+    assert not contains(pixels, screen.render(head, {"smile": 1.0}, size=tile, look=Look(shading="heat")))
+
+
+def test_tiny_and_unmoving_faces_have_heat_sheets_too(screen: Offscreen, head: Rig) -> None:
+    look = Look(shading="heat")
+    assert sheet(screen, head, tile=(20, 20), look=look, names=("jaw",)).shape[1] == 40
+    still = Rig(head.neutral, head.shapes, np.zeros_like(head.deltas), head.info)
+    assert sheet(screen, still, tile=(120, 100), look=look).shape[1] == 240
 
 
 def test_a_sheet_is_lettered_under_each_tile_and_above(screen: Offscreen, head: Rig) -> None:

@@ -9,12 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from facemorph.core.facs import Sides
 from facemorph.core.pose import Pose
 from facemorph.core.progress import silent
 from facemorph.core.rig import Rig
-from facemorph.deform.controls import BoundControls, Controls
+from facemorph.deform.controls import BoundControls, Controls, PeopleControl
 from facemorph.deform.handles import Handle, HandleSet
-from facemorph.ui import actions, comparing, files
+from facemorph.ui import actions, comparing, files, plots
 from tests.ui.harness import Offscreen
 
 FACE = (450, 380)
@@ -36,17 +37,17 @@ def test_linear_has_one_speed_and_cosine_that_of_its_formula(rig: Rig) -> None:
     pose = Pose.between("neutral", "happy", 0.2, "cosine")
     made = comparing.paths(rig, vertex, pose, Controls(), BoundControls(rig), silent)
     whole = float(np.linalg.norm(rig.deltas[rig.names.index("happy"), vertex]))
-    assert made.distance["Linear"] == pytest.approx(whole * made.t, abs=1e-5)
+    assert made.value["Linear"] == pytest.approx(whole * made.t, abs=1e-5)
     assert made.speed["Linear"] == pytest.approx(whole, rel=1e-5)
     assert made.acceleration["Linear"] == pytest.approx(0.0, abs=1e-3)
-    assert made.distance["Cosine"] == pytest.approx(whole * (1 - np.cos(np.pi * made.t)) / 2, abs=1e-5)
+    assert made.value["Cosine"] == pytest.approx(whole * (1 - np.cos(np.pi * made.t)) / 2, abs=1e-5)
     assert made.speed["Cosine"] == pytest.approx(
         whole * math.pi / 2 * np.sin(np.pi * made.t), abs=whole * 5e-3
     )
     inner = slice(3, -3)
     expected = whole * math.pi**2 / 2 * np.cos(np.pi * made.t)
     assert made.acceleration["Cosine"][inner] == pytest.approx(expected[inner], abs=whole * 0.05)
-    for kind in (made.distance, made.speed):
+    for kind in (made.value, made.speed):
         assert kind["Present"] == pytest.approx(kind["Cosine"], abs=1e-5)
 
 
@@ -61,12 +62,12 @@ def test_a_click_chooses_the_vertex_and_its_path_follows_the_controls(page: Offs
     page.until(lambda: compare.paths is not None)
     vertex = compare.vertex
     delta = rig.deltas[rig.names.index("happy"), vertex]
-    assert compare.paths.distance["Linear"][-1] == pytest.approx(np.linalg.norm(delta), abs=1e-5)
+    assert compare.paths.value["Linear"][-1] == pytest.approx(np.linalg.norm(delta), abs=1e-5)
     first = compare.paths
     app.pose = replace(app.pose, target={"sad": 1.0})
     page.until(lambda: compare.paths is not first)
     delta = rig.deltas[rig.names.index("sad"), vertex]
-    assert compare.paths.distance["Linear"][-1] == pytest.approx(np.linalg.norm(delta), abs=1e-5)
+    assert compare.paths.value["Linear"][-1] == pytest.approx(np.linalg.norm(delta), abs=1e-5)
     before = page.pixels_now().copy()
     compare.vertex = None
     page.frames(2)
@@ -183,3 +184,69 @@ def test_the_split_view_is_switched_on_by_the_mouse_and_the_face_put_in_sight(pa
             break
     assert len(app.views()) == 2
     assert app.camera.distance > distance
+
+
+def test_a_weight_on_its_way_by_all_three_methods_is_that_of_their_formulas(rig: Rig) -> None:
+    pose = replace(Pose.between("neutral", "happy", 0.9, "cosine"), weights={"happy": 0.25})
+    made = comparing.weight_paths(rig, "happy", pose, Controls(), BoundControls(rig), silent)
+    eased = (1 - np.cos(np.pi * made.t)) / 2
+    assert made.value["Present"] == pytest.approx(0.25 + eased)
+    assert made.value["Cosine"] == pytest.approx(0.25 + eased)
+    assert made.value["Linear"] == pytest.approx(0.25 + made.t)
+    assert made.speed["Linear"] == pytest.approx(1.0)
+    assert made.speed["Cosine"] == pytest.approx(math.pi / 2 * np.sin(np.pi * made.t), abs=2e-3)
+    assert made.acceleration["Linear"] == pytest.approx(0.0, abs=1e-9)
+    inner = slice(3, -3)
+    expected = math.pi**2 / 2 * np.cos(np.pi * made.t)
+    assert made.acceleration["Cosine"][inner] == pytest.approx(expected[inner], abs=0.05)
+
+
+def test_a_weight_that_falls_has_a_speed_below_nought(rig: Rig) -> None:
+    pose = Pose.between("happy", "sad", 0.0)
+    made = comparing.weight_paths(rig, "happy", pose, Controls(), BoundControls(rig), silent)
+    assert made.value["Linear"] == pytest.approx(1.0 - made.t)
+    assert made.speed["Linear"] == pytest.approx(-1.0)
+
+
+def test_the_weight_counts_what_every_page_adds(rig: Rig) -> None:
+    controls = Controls(facs={12: Sides(0.5, 0.3)}, people=PeopleControl(None, {}, {"AU12": 1.0}, 0.7))
+    made = comparing.weight_paths(rig, "AU12", Pose.of({"AU12": 0.1}), controls, BoundControls(rig), silent)
+    assert made.value["Present"] == pytest.approx(0.5 + made.t)
+
+
+def test_the_page_follows_a_weight_that_is_chosen(page: Offscreen, rig: Rig) -> None:
+    app, compare = page.app, page.app.lab.compare
+    app.pose = Pose.between("neutral", "sad", 0.5, "cosine")
+    page.frames(2)
+    for y in range(170, 300, 8):
+        page.click(1190, y)
+        page.frames(2)
+        if compare.follows == "A weight":
+            break
+    page.until(lambda: compare.paths is not None)
+    assert compare.shape == "sad"
+    assert compare.paths.value["Linear"] == pytest.approx(compare.paths.t)
+    before = page.pixels_now().copy()
+    first = compare.paths
+    app.controls = replace(app.controls, facs={12: Sides.both(0.4)})
+    compare.shape = "AU12"
+    page.until(lambda: compare.paths is not first)
+    page.frames(2)
+    assert compare.paths.value["Present"] == pytest.approx(0.4)
+    assert np.abs(page.pixels_now().astype(int) - before)[300:740, 920:].max() > 40
+    assert set(comparing.shapes_now(app, rig)) >= {"happy", "sad", "AU12"}
+    assert "AU1" not in comparing.shapes_now(app, rig)
+    app.controls = replace(app.controls, facs={})
+    page.frames(2)
+    assert compare.shape == "sad"
+
+
+@pytest.mark.parametrize("logarithmic", [False, True])
+@pytest.mark.parametrize("values", [[1.0, 2.0, 5.0], [3.0, 3.0, 3.0], [0.001, np.nan, 0.1], [np.nan] * 3])
+def test_no_line_reaches_the_legend_or_leaves_the_plot(values: list[float], logarithmic: bool) -> None:
+    t = np.arange(3.0)
+    low, high = plots._limits((plots.Line("a", t, np.array(values)),), 0.25, logarithmic=logarithmic)
+    scale = np.log10 if logarithmic else np.asarray
+    height = [(scale(v) - scale(low)) / (scale(high) - scale(low)) for v in values if np.isfinite(v)]
+    assert low < high
+    assert all(0.0 < part < 0.75 for part in height)

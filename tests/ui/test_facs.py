@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from imgui_bundle import imgui
 
-from facemorph.core.facs import Sides
+from facemorph.core.facs import PROTOTYPES, Sides, units_text
 from facemorph.core.pose import Pose
+from facemorph.deform.handles import Handle, HandleSet
 from facemorph.deform.sides import SidedUnits
-from facemorph.ui import units
+from facemorph.ui import actions, handles, units
+from facemorph.ui.commands import commands
 from tests.ui.harness import Offscreen, ball_rig
 
+WEIGHT = st.floats(-1, 2).filter(lambda weight: abs(weight) > 0.01)
 FIRST_SLIDER = (1105, 299)
 TAB_FACS = (1091, 54)
 
@@ -57,6 +63,73 @@ def test_what_is_copied_can_be_pasted_again(window: Offscreen) -> None:
     units.reset_units(window.app)
     units.paste_units(window.app)
     assert window.app.controls.facs == made
+
+
+def positions(window: Offscreen) -> np.ndarray:
+    return window.app.scene().positions(window.app.rig)
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=20, deadline=None)
+@given(
+    page=st.dictionaries(st.sampled_from((1, 2, 12)), st.builds(Sides, WEIGHT, WEIGHT)),
+    shapes=st.dictionaries(st.sampled_from(("AU2", "AU12", "AU15")), WEIGHT),
+)
+def test_a_face_made_of_units_alone_comes_back_from_its_text(
+    window: Offscreen, page: dict[int, Sides], shapes: dict[str, float]
+) -> None:
+    app = window.app
+    units.set_units(app, page)
+    app.pose = Pose(target=app.pose.target, weights=shapes)
+    before, text = positions(window), units_text(units.shown_units(app))
+    assert units.beside_units(app) == ""
+    actions.reset_face(app)
+    assert np.array_equal(positions(window), app.rig.neutral.positions)
+    units.set_text(app, text)
+    np.testing.assert_allclose(positions(window), before, atol=2e-5)
+
+
+def test_a_unit_set_on_both_pages_is_copied_once(window: Offscreen) -> None:
+    app = window.app
+    units.set_units(app, {12: Sides(0.5, 0.25)})
+    app.pose = Pose.of({"AU12": 0.25, "AU4": 1.0, "AU6": 1e-5})
+    units.copy_units(app)
+    assert imgui.get_clipboard_text() == "AU4+L12(0.75)+R12(0.5)"
+    assert app.messages.shown[-1].text == "Copied AU4+L12(0.75)+R12(0.5)"
+
+
+def test_what_no_unit_says_is_told_and_not_dropped_in_silence(window: Offscreen) -> None:
+    app = window.app
+    app.pose = replace(Pose.between("neutral", "happy", 0.4), weights={"AU4": 1.0, "jawOpen": 0.2})
+    handles.change(app, HandleSet(tuple(Handle(v, (0.0, 0.0, v / 900)) for v in (100, 300, 500, 900))))
+    units.copy_units(app)
+    assert imgui.get_clipboard_text() == "AU4"
+    assert app.messages.shown[-1].text == (
+        "Copied AU4. No unit says the rest: Happy 40 %, JawOpen 20 %, handles."
+    )
+    assert "Happy 40 %, JawOpen 20 %, handles" in units.copy_help(app)
+    app.controls = replace(app.controls, off=frozenset({"handles"}))
+    assert units.beside_units(app) == "Happy 40 %, JawOpen 20 %"
+
+
+def test_what_is_switched_off_makes_up_no_part_of_the_face(window: Offscreen) -> None:
+    app = window.app
+    units.set_units(app, {12: Sides.both(1.0)})
+    app.pose = Pose.of({"AU4": 1.0})
+    app.shapes_on = False
+    assert units_text(units.shown_units(app)) == "AU12"
+    app.shapes_on = True
+    actions.toggle_method(app, "facs")
+    assert units_text(units.shown_units(app)) == "AU4"
+
+
+def test_a_face_without_units_leaves_the_clipboard_and_says_why(window: Offscreen) -> None:
+    imgui.set_clipboard_text("kept")
+    window.app.pose = Pose.between("neutral", "happy", 1.0)
+    units.copy_units(window.app)
+    assert imgui.get_clipboard_text() == "kept"
+    assert window.app.messages.shown[-1].text == (
+        "The face is made of no FACS units. No unit says the rest: Happy."
+    )
 
 
 def test_text_that_is_no_units_changes_nothing_and_says_why(window: Offscreen) -> None:
@@ -104,3 +177,24 @@ def test_resetting_the_face_puts_the_methods_to_rest_too(window: Offscreen) -> N
     units.set_unit(window.app, 12, Sides.both(1.0))
     window.run("Reset face")
     assert window.app.controls.facs == {}
+
+
+def test_every_prototype_and_the_text_have_commands(window: Offscreen) -> None:
+    app = window.app
+    window.run("FACS: happy")
+    assert app.controls.facs == {6: Sides.both(1.0), 12: Sides.both(1.0)}
+    window.run("FACS: copy units")
+    window.run("FACS: reset")
+    assert app.controls.facs == {}
+    window.run("FACS: paste units")
+    assert app.controls.facs == {6: Sides.both(1.0), 12: Sides.both(1.0)}
+    titles = {command.title for command in commands(app)}
+    assert {f"FACS: {emotion}" for emotion in PROTOTYPES} <= titles
+
+
+def test_a_prototype_of_which_the_face_has_nothing_cannot_be_run(opengl: None) -> None:
+    with Offscreen(ball_rig(facs=("AU12",))) as window:
+        able = {
+            c.title for c in commands(window.app) if c.title.startswith("FACS: ") and c.enabled(window.app)
+        }
+        assert able == {"FACS: happy", "FACS: copy units", "FACS: paste units"}

@@ -274,3 +274,14 @@ def test_a_target_that_does_not_move_is_no_mystery(page: Offscreen) -> None:
     page.until(lambda: rebuild.result is not None)
     page.frames(2)
     assert rebuild.result.max_percent == pytest.approx(0.0, abs=1e-6)
+
+
+def test_commands_put_points_to_rest_and_take_them_away(page: Offscreen) -> None:
+    app = page.app
+    page.click(*FACE)
+    vertex = app.controls.handles.handles[0].vertex
+    handles.move(app, vertex, None, np.array([0.0, 1.0, 0.0]))
+    page.run("Handles: reset")
+    assert app.controls.handles.handles == (Handle(vertex),)
+    page.run("Handles: clear")
+    assert app.controls.handles.handles == ()

@@ -234,3 +234,14 @@ def test_the_pages_buttons_ask_for_a_file(page: Offscreen) -> None:
             page.app.chooser.purpose = ""
             page.frames(2)
     assert {"open regions", "save regions"} <= asked
+
+
+def test_commands_put_regions_to_rest_and_take_the_paint_off(page: Offscreen, parted: Rig) -> None:
+    app = page.app
+    regions.use(app, RegionSet(parted, ("brows",), np.ones((1, parted.neutral.vertex_count), np.float32)))
+    regions.change(app, {"brows": RegionControl(shift=(0.0, 1.0, 0.0))})
+    page.run("Regions: reset")
+    assert not app.controls.regions
+    assert app.painted is not None
+    page.run("Regions: unpaint")
+    assert app.painted is None

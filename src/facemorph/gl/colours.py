@@ -87,5 +87,5 @@ def encoded(linear: float) -> float:
 
 
 def blended_opacity(materials: Sequence[Material], shares: Sequence[float]) -> float:
-    """The opacity of a part whose `materials`, own and partners', have these shares."""
-    return sum(share * material.opacity for share, material in zip(shares, materials, strict=True))
+    """The opacity of a part whose `materials`, own and partners', have these shares: 1 where all have 1."""
+    return 1.0 - sum(share * (1.0 - m.opacity) for share, m in zip(shares, materials, strict=True))

@@ -39,11 +39,23 @@ def with_legend(pixels: UInt8, legend: Legend) -> UInt8:
     return np.array(Image.alpha_composite(picture, layer), np.uint8)
 
 
+def legend_panel(legend: Legend, width: int, letter: float) -> UInt8:
+    """`legend` alone, lying, (H, W, 4): `width` pixels wide with letters of so many pixels."""
+    from PIL import Image, ImageDraw
+
+    measures = _Measures(width, 0, letter)
+    measures.margin = 0
+    layer = Image.new("RGBA", (width, _lying_height(measures) + 1), (0, 0, 0, 0))
+    measures.height = layer.height
+    _lying(layer, ImageDraw.Draw(layer), legend, measures)
+    return np.array(layer, np.uint8)
+
+
 class _Measures:
     """Sizes in pixels that both forms share."""
 
-    def __init__(self, width: int, height: int) -> None:
-        size = float(np.clip(min(width, height) / 34.0, 10.0, 30.0))
+    def __init__(self, width: int, height: int, letter: float | None = None) -> None:
+        size = float(np.clip(min(width, height) / 34.0, 10.0, 30.0)) if letter is None else letter
         self.width, self.height = width, height
         self.font, self.small = font(size), font(size * 0.9)
         self.gap = max(round(size * 0.6), 4)
@@ -81,12 +93,16 @@ def _standing(layer: Image, pen: ImageDraw, legend: Legend, m: _Measures) -> Non
         last = at
 
 
+def _lying_height(m: _Measures) -> int:
+    return 2 * m.line + m.thick + m.gap
+
+
 def _lying(layer: Image, pen: ImageDraw, legend: Legend, m: _Measures) -> None:
     """The bar along the bottom, its words over it and its ticks under it."""
     from PIL import Image
 
     box_width = m.width - 2 * m.margin
-    box_height = 2 * m.line + m.thick + m.gap
+    box_height = _lying_height(m)
     left, top = m.margin, max(m.height - m.margin - box_height, 0)
     pen.rounded_rectangle((left, top, left + box_width, top + box_height), radius=m.gap, fill=_PANEL)
     ends = max((text_width(text, m.small) / 2 for _, text in legend.ticks), default=0.0)

@@ -18,12 +18,16 @@ if TYPE_CHECKING:
 
 
 class CpuMorph:
-    """Fills a surface's morphed buffer from a pose."""
+    """Fills a surface's morphed buffer from a pose.
+
+    vertices  (V, 6) float32, positions and normals of the pose; None before the first
+    """
 
     def __init__(self, ctx: moderngl.Context, rig: Rig, surface: Surface, blend: Blend) -> None:
         self._rig = rig
         self._blend = blend
         self._normals_of = NormalsOf(surface.triangles.vertices, rig.neutral.vertex_count)
+        self.vertices: Float32 | None = None
         self._both = np.empty((rig.neutral.vertex_count, 6), np.float32)
         self.bind(surface)
 
@@ -42,6 +46,7 @@ class CpuMorph:
             # Column by column: numpy copies rows of three numbers one by one.
             self._both[:, axis] = positions[:, axis]
         self._normals_of(positions, out=self._both[:, 3:])
+        self.vertices = self._both
         if len(self._drawn):
             # Without a mode numpy gathers into a buffer of its own first.
             self._both.take(self._copies, axis=0, out=self._drawn, mode="clip")

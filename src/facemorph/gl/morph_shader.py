@@ -45,7 +45,12 @@ class _Item:
 
 
 class ShaderMorph:
-    """Fills a surface's morphed buffer from a pose. `passes` counts morphing passes drawn."""
+    """Fills a surface's morphed buffer from a pose. `passes` counts morphing passes drawn.
+
+    vertices  None: only the card knows positions and normals
+    """
+
+    vertices: Float32 | None = None
 
     def __init__(
         self,

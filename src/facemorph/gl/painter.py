@@ -1,7 +1,8 @@
 """`Painter`: the passes of one picture; backdrop, the face in its shading, the polygons' edges.
 
 The outside of every surface is drawn before its inside, each with the other culled: what lies behind
-is then rejected by depth before it is shaded, and open surfaces still show both sides.
+is then rejected by depth before it is shaded, and open surfaces still show both sides. While something
+moves on software OpenGL, insides that `gl.insides` finds hidden are left out.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from facemorph.core.picture import Look
 from facemorph.gl.backdrop import Backdrop
 from facemorph.gl.colours import FIRST_PARTNER_UNIT, OWN_UNIT, Source, blended_opacity, source_of
 from facemorph.gl.heat import ramp
+from facemorph.gl.insides import Insides
 from facemorph.gl.lights import Lights
 from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
@@ -62,6 +64,7 @@ class Painter:
         glowing: bool = False,
         shares: Sequence[float] = (),
         face: Uniforms = NOTHING_OF_FACE,
+        hurried: bool = False,
     ) -> None:
         """Fill `framebuffer` with the face as `look` wants it.
 
@@ -69,6 +72,7 @@ class Painter:
         shares    of the colours: the face's own and those of each of the surface's partners, together 1;
                   all its own where they are left out
         face      what the drivers tell shaders of the face in its pose
+        hurried   whether insides that are hidden may be left out
         """
         self._glowing = glowing
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
@@ -78,7 +82,8 @@ class Painter:
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="
         solid = [part for part in surface.parts if self._opacity(part) >= 1.0]
-        self._draw_parts(surface, solid, look, scene, (_OUTSIDE, _INSIDE))
+        self._draw_parts(surface, solid, look, scene, _OUTSIDE)
+        self._draw_insides(framebuffer, surface, solid, camera, look, scene, hurried=hurried)
         if later:
             self._ctx.disable(self._ctx.CULL_FACE)
             self._backdrop.fill(scene)
@@ -86,7 +91,8 @@ class Painter:
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
         clear = [part for part in surface.parts if self._opacity(part) < 1.0]
-        self._draw_parts(surface, clear, look, scene, (_INSIDE, _OUTSIDE))
+        for side in (_INSIDE, _OUTSIDE):
+            self._draw_parts(surface, clear, look, scene, side)
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 
@@ -113,12 +119,72 @@ class Painter:
         }
 
     def _draw_parts(
-        self, surface: Surface, parts: list[Part], look: Look, scene: Uniforms, sides: tuple[float, float]
+        self, surface: Surface, parts: list[Part], look: Look, scene: Uniforms, side: float
     ) -> None:
-        for side in sides:
-            self._ctx.cull_face = "back" if side == _OUTSIDE else "front"
-            for part in parts:
-                self._draw_part(surface, part, look, {**scene, "side": side})
+        self._ctx.cull_face = "back" if side == _OUTSIDE else "front"
+        for part in parts:
+            self._draw_part(surface, part, look, {**scene, "side": side})
+
+    def _draw_insides(
+        self,
+        framebuffer: moderngl.Framebuffer,
+        surface: Surface,
+        solid: list[Part],
+        camera: Camera,
+        look: Look,
+        scene: Uniforms,
+        *,
+        hurried: bool,
+    ) -> None:
+        """The insides of the parts whose outsides are drawn, all of them or those that can be seen."""
+        width, height = framebuffer.size
+        samples = width * height * max(framebuffer.samples, 1)
+        insides = surface.insides
+        hidden: list[Part] = []
+        if insides is not None and insides.may_be_hidden(camera, width / height):
+            shell = [part for part in surface.parts if part.in_shell]
+            if all(self._covers(surface, part, look) for part in shell) and not self._looked_into(
+                framebuffer, surface, insides, scene, samples
+            ):
+                hidden = shell
+        seen = [part for part in solid if not (hidden and part.in_shell)]
+        self._draw_parts(surface, seen, look, scene, _INSIDE)
+        if insides is not None and hidden and not insides.may_be_left_out(hurried=hurried):
+            with insides.watching(samples):
+                self._draw_parts(surface, hidden, look, scene, _INSIDE)
+
+    def _covers(self, surface: Surface, part: Part, look: Look) -> bool:
+        """Whether nothing is seen through the part's outside."""
+        if self._opacity(part) < 1.0:
+            return False
+        if look.shading != "skin":
+            return True
+        meshes = zip((part.material, *part.partners), (surface.mesh, *surface.partners), strict=True)
+        return not any(source_of(material, mesh, self.textures).cut_out for material, mesh in meshes)
+
+    def _looked_into(
+        self,
+        framebuffer: moderngl.Framebuffer,
+        surface: Surface,
+        insides: Insides,
+        scene: Uniforms,
+        samples: int,
+    ) -> bool:
+        """Whether one of the shell's caps would be seen."""
+        program = self._programs.get("face.vert", "nothing.frag")
+        assign(program, scene)
+        self._ctx.disable(self._ctx.CULL_FACE)
+        framebuffer.color_mask, framebuffer.depth_mask = (False, False, False, False), False
+        framebuffer.use()
+        # By a hair behind: a cap is no nearer than the surface whose rim it begins at.
+        self._ctx.polygon_offset = 0.0, 4.0
+        try:
+            return insides.looked_into(surface.vertex_array(program), *surface.caps, samples)
+        finally:
+            self._ctx.polygon_offset = 0.0, 0.0
+            framebuffer.color_mask, framebuffer.depth_mask = (True, True, True, True), True
+            framebuffer.use()
+            self._ctx.enable(self._ctx.CULL_FACE)
 
     def _draw_part(self, surface: Surface, part: Part, look: Look, scene: Uniforms) -> None:
         if look.shading in ("clay", "wire"):

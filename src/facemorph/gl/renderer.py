@@ -14,12 +14,12 @@ twice a frame. The rig's arrays are shared; what is there twice is the buffers o
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal, Protocol
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Float64, UInt8
+from facemorph.core.arrays import Float32, UInt8
 from facemorph.core.blend import Blend
 from facemorph.core.camera import Camera
 from facemorph.core.lengths import displacements
@@ -32,6 +32,7 @@ from facemorph.gl.describe import describe
 from facemorph.gl.drivers import Driver, drivers_of, uniforms_of
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.lights import Lights
+from facemorph.gl.morph import Morph, Shown, Stats
 from facemorph.gl.painter import NOTHING_OF_FACE, Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
@@ -45,39 +46,6 @@ if TYPE_CHECKING:
 MorphPath = Literal["auto", "shader", "cpu"]
 Quality = Literal["full", "fast"]
 SAMPLES = 4
-
-
-class Morph(Protocol):
-    """A way to fill a surface's morphed buffer."""
-
-    def update(self, pose: Pose, offsets: Float32 | None = None, *, exactly: bool) -> None:
-        """Morph to `pose` plus `offsets` (V, 3)."""
-
-    def bind(self, surface: Surface) -> None:
-        """Fill `surface` from now on, of the same mesh."""
-
-    def release(self) -> None:
-        """Give back what the context holds."""
-
-
-@dataclass
-class Stats:
-    """What was done since the face was loaded: frames drawn, how many had to morph, partners taken."""
-
-    frames: int = 0
-    morphs: int = 0
-    partners: int = 0
-
-
-@dataclass(frozen=True, eq=False)
-class _Shown:
-    """What the morphed buffer holds."""
-
-    pose: Pose
-    coefficients: Float64
-    offsets: Float32 | None
-    exactly: bool
-    face: Mapping[str, object]
 
 
 class Renderer:
@@ -104,9 +72,10 @@ class Renderer:
         self._morph: Morph | None = None
         self._blend: Blend | None = None
         self._drivers: tuple[Driver, ...] = ()
-        self._shown: _Shown | None = None
+        self._shown: Shown | None = None
         self._drawn: tuple[Camera, tuple[int, int]] | None = None
         self._legend: Legend | None = None
+        self._followed: object = None
 
     def load(self, rig: Rig) -> None:
         """Take `rig` in place of the one before, which stays where this raises.
@@ -167,8 +136,9 @@ class Renderer:
         kept from 0 to 1 as `colour_shares` does. Other partners rebuild what is drawn of the mesh once (so
         keep those of weight 0 listed while a weight is dragged), other weights nothing.
 
-        quality   "fast" leaves out antialiasing where OpenGL runs on the CPU (it doubles the frame
-                  there): for frames while something moves; "full" for still ones and pictures
+        quality   "fast" leaves out, where OpenGL runs on the CPU, antialiasing (it doubles the frame
+                  there) and insides that are hidden: for frames while something moves; "full" for
+                  still ones and pictures
         exactly   morph in full, so that equal arguments give equal pixels whatever was drawn before
 
         Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
@@ -188,6 +158,7 @@ class Renderer:
             look = self._with_heat_end(look, scene, rig)
             if scene.glow is not None:
                 surface.give("glow", scene.glow)
+            self._watch_insides(surface, hurried=hurried)
             framebuffer = self._target.prepare(size, samples)
             shares = colour_shares(rig.neutral, scene.partners)
             self._painter.paint(
@@ -197,6 +168,7 @@ class Renderer:
                 look,
                 size,
                 glowing=scene.glow is not None,
+                hurried=hurried,
                 shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *surface.partners)],
                 face=self._shown.face if self._shown else NOTHING_OF_FACE,
             )
@@ -268,8 +240,20 @@ class Renderer:
         self._shown = None
         self._morph.update(scene.pose, scene.offsets, exactly=exactly)
         face = uniforms_of(self._drivers, coefficients, scene.offsets)
-        self._shown = _Shown(scene.pose, coefficients, scene.offsets, exactly, face)
+        self._shown = Shown(scene.pose, coefficients, scene.offsets, exactly, face)
         self.stats.morphs += 1
+        self._followed = None
+
+    def _watch_insides(self, surface: Surface, *, hurried: bool) -> None:
+        """Let the surface know the pose, once insides may be left out; first asked for when it hurries."""
+        vertices = self._morph.vertices if self._morph is not None else None
+        if vertices is None:
+            return
+        if hurried:
+            surface.find_shell()
+        if surface.insides is not None and self._followed is not surface.insides:
+            surface.insides.follow(vertices[:, :3], vertices[:, 3:])
+            self._followed = surface.insides
 
     def _with_heat_end(self, look: Look, scene: Scene, rig: Rig) -> Look:
         """`look` with the heat map's end settled, what it measures from uploaded, and its legend made."""

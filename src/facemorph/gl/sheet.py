@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from facemorph.core.arrays import UInt8
 from facemorph.core.camera import Camera
+from facemorph.core.lengths import displacements
 from facemorph.core.picture import LARGEST_SIDE, Look, checked_size
 from facemorph.core.pose import NEUTRAL, Pose
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.errors import OptionError
+from facemorph.gl.heat import heat_end, heat_legend
 from facemorph.gl.labels import as_image, fitted, font
+from facemorph.gl.legend import legend_panel
 from facemorph.gl.offscreen import Offscreen
 
 
@@ -27,15 +31,19 @@ def sheet(
 ) -> UInt8:
     """Neutral and `names` (every expression; every shape where the rig has none) as (H, W, 4) uint8.
 
-    `tile` is one tile's (width, height) in pixels; the tiles stand in rows, each under its label, with the
-    face's name above them. Raises `OptionError` where the sheet would be too large.
+    `tile` is one tile's (width, height) in pixels; the tiles stand in rows, each over its label, with the
+    face's name above them. A heat map has one scale for all tiles, up to the largest displacement of all
+    (or `look.heat_max`), and one legend beside the name. Raises `OptionError` where the sheet would be too
+    large.
     """
-    look = look or Look()
     width, height = checked_size(tile)
     states = _states(rig, names)
+    look = _on_one_scale(look or Look(), rig, states)
     columns = _columns(len(states), width, height)
     rows = math.ceil(len(states) / columns)
-    strip, head = _strip_height(tile), round(_strip_height(tile) * 1.5)
+    strip = _strip_height(tile)
+    legend = _legend(look, rig, tile, columns * width)
+    head = max(round(strip * 1.5), 0 if legend is None else legend.shape[0] + strip // 2)
     full = (columns * width, head + rows * (height + strip))
     if max(full) > 2 * LARGEST_SIDE:
         raise OptionError(
@@ -49,9 +57,14 @@ def sheet(
     for i, (name, _) in enumerate(states):
         top, left = head + (i // columns) * (height + strip), (i % columns) * width
         pose = Pose.between(NEUTRAL, name, 1.0)
-        pixels = screen.render(rig, pose, size=tile, camera=camera, look=look)
+        pixels = screen.render(rig, pose, size=tile, camera=camera, look=look, legend=False)
         result[top : top + height, left : left + width] = pixels
-    return _lettered(result, rig.info.name, [label for _, label in states], columns, tile, head, strip, look)
+    room = columns * width
+    if legend is not None:
+        room -= legend.shape[1]
+        _lay_over(result[(head - len(legend)) // 2 :, room - strip // 4 :], legend)
+    labels = [label for _, label in states]
+    return _lettered(result, rig.info.name, labels, columns, tile, head, strip, look, room)
 
 
 def _states(rig: Rig, names: tuple[str, ...] | None) -> list[tuple[str, str]]:
@@ -61,6 +74,33 @@ def _states(rig: Rig, names: tuple[str, ...] | None) -> list[tuple[str, str]]:
     else:
         shapes = list(rig.shapes_in(EXPRESSION) or rig.controls)
     return [(NEUTRAL, "Neutral"), *((shape.name, shape.label) for shape in shapes)]
+
+
+def _on_one_scale(look: Look, rig: Rig, states: list[tuple[str, str]]) -> Look:
+    """`look` with the heat map's end settled for all tiles alike."""
+    if look.shading != "heat" or (look.heat_max is not None and look.heat_max > 0.0):
+        return look
+    neutral = rig.neutral.positions
+    moved = (rig.positions(Pose.between(NEUTRAL, name, 1.0)) for name, _ in states)
+    largest = max(float(displacements(positions, neutral).max(initial=0.0)) for positions in moved)
+    return replace(look, heat_max=heat_end(largest, rig.info.unit, rig.neutral.diagonal or 1.0))
+
+
+def _legend(look: Look, rig: Rig, tile: tuple[int, int], width: int) -> UInt8 | None:
+    """The one legend of a heat map's tiles, for a sheet `width` wide; tiny sheets have no room for one."""
+    letter = max(_letter_size(tile) * 0.8, 9.0)
+    panel = round(min(width * 0.55, letter * 18.0))
+    if look.shading != "heat" or look.heat_max is None or panel < letter * 8.0:
+        return None
+    return legend_panel(heat_legend(look.heat_max, rig.info.unit), panel, letter)
+
+
+def _lay_over(pixels: UInt8, panel: UInt8) -> None:
+    """Put `panel` over the top left of `pixels`, in place."""
+    from PIL import Image
+
+    under = pixels[: panel.shape[0], : panel.shape[1]]
+    under[:] = np.asarray(Image.alpha_composite(as_image(under.copy()), as_image(panel)))
 
 
 def _columns(count: int, width: int, height: int) -> int:
@@ -106,6 +146,7 @@ def _lettered(
     head: int,
     strip: int,
     look: Look,
+    room: int,
 ) -> UInt8:
     from PIL import ImageDraw
 
@@ -117,7 +158,7 @@ def _lettered(
     large, small = font(size * 1.3), font(size)
     pen.text(
         (size * 0.7, head / 2),
-        fitted(title, large, columns * width - size * 1.4),
+        fitted(title, large, room - size * 1.4),
         font=large,
         fill=ink,
         anchor="lm",

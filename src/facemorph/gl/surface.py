@@ -15,11 +15,14 @@ import numpy as np
 
 from facemorph.core.arrays import Float32, Int32, Int64, UInt8
 from facemorph.core.mesh import Material, Mesh
+from facemorph.core.normals import vertex_normals
 from facemorph.core.split import split_vertices
 from facemorph.core.triangles import Triangles, triangulated
 from facemorph.gl.counterpart import counterparts
 from facemorph.gl.hem import Hem, hem_of
+from facemorph.gl.insides import Insides
 from facemorph.gl.materials import PLAIN
+from facemorph.gl.shell import Shell, shell_of
 
 if TYPE_CHECKING:
     import moderngl
@@ -40,7 +43,7 @@ _OF_PARTNER = re.compile(r"partner(\d+)_(uv|colour)")
 class Part:
     """A run of triangles drawn alike: material, first triangle, how many, whether they fade at the hem.
 
-    `partners` are the partners' materials there.
+    `partners` are the partners' materials there; `in_shell` tells the shell's triangles, where it is known.
     """
 
     material: Material
@@ -48,6 +51,7 @@ class Part:
     count: int
     in_hem: bool
     partners: tuple[Material, ...] = ()
+    in_shell: bool = False
 
 
 class Surface:
@@ -59,6 +63,8 @@ class Surface:
     position_of  (G,) int32, the position each drawn vertex is a copy of
     order        (T,) the mesh's triangles in the order they are drawn
     morphed      buffer of (G, 6) float32: position and normal of each drawn vertex
+    insides      what tells when the shell's insides are hidden, from `find_shell` on; None without a shell
+    caps         first index and number of indices of the triangles that close the shell's rims
     """
 
     def __init__(
@@ -69,21 +75,48 @@ class Surface:
         self.triangles: Triangles = kin.triangles if kin else triangulated(mesh)
         self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices)
         split, others = counterparts(mesh, self.triangles, split_vertices(mesh, self.triangles), partners)
-        materials = [_materials(mesh, self.triangles.polygon)]
-        materials += [_materials(other.mesh, other.polygon) for other in others]
+        self._materials = [_materials(mesh, self.triangles.polygon)]
+        self._materials += [_materials(other.mesh, other.polygon) for other in others]
         self._partner_uvs = [other.uvs for other in others]
         self.position_of: Int32 = split.position_of
         self.drawn_count = len(split.position_of)
         self.triangle_count = len(split.triangles)
-        self.parts, self.order = _parts(materials, self.hem)
         self._uvs = split.uvs
         self._given: dict[str, Float32] = {}
         self._buffers: dict[str, moderngl.Buffer] = {}
         self._arrays: dict[int, moderngl.VertexArray] = {}
         self._edges: moderngl.Texture | None = None
         self.morphed = ctx.buffer(reserve=max(self.drawn_count, 1) * MORPHED_BYTES, dynamic=True)
-        indices = np.ascontiguousarray(split.triangles[self.order], np.uint32)
-        self._indices = ctx.buffer(indices.tobytes() if len(indices) else b"\0" * 12)
+        self._drawn_triangles = split.triangles
+        self._shell_sought = False
+        self.insides: Insides | None = None
+        self._indices: moderngl.Buffer | None = None
+        self._arrange(None)
+
+    def _arrange(self, shell: Shell | None) -> None:
+        """Put the triangles in the order that they are drawn in."""
+        self.parts, self.order = _parts(self._materials, self.hem, shell)
+        indices = self._drawn_triangles[self.order]
+        self.caps = 3 * len(indices), 0
+        if shell is not None:
+            drawn_of = np.zeros(self.mesh.vertex_count, np.int32)
+            drawn_of[self.position_of] = np.arange(self.drawn_count, dtype=np.int32)
+            indices = np.concatenate([indices, drawn_of[shell.caps]])
+            self.caps = self.caps[0], 3 * len(shell.caps)
+        self._release_order()
+        data = np.ascontiguousarray(indices, np.uint32)
+        self._indices = self._ctx.buffer(data.tobytes() if len(data) else b"\0" * 12)
+
+    def find_shell(self) -> None:
+        """Find out which insides may be hidden. Costs some milliseconds, and counts once."""
+        if self._shell_sought:
+            return
+        self._shell_sought = True
+        positions, triangles = self.mesh.positions, self.triangles.vertices
+        shell = shell_of(positions, triangles, None if self.hem is None else self.hem.triangles)
+        if shell is not None:
+            self._arrange(shell)
+            self.insides = Insides(self._ctx, positions, vertex_normals(positions, triangles))
 
     def vertex_array(self, program: moderngl.Program) -> moderngl.VertexArray:
         """The surface bound to the attributes that `program` reads."""
@@ -164,14 +197,19 @@ class Surface:
             self._edges = self._ctx.texture((width, rows), 1, padded.tobytes(), dtype="u1")
         return self._edges
 
+    def _release_order(self) -> None:
+        """Give back what follows the order of triangles."""
+        for held in (*self._arrays.values(), self._indices, self._edges):
+            if held is not None:
+                held.release()
+        self._arrays.clear()
+        self._edges = None
+
     def release(self) -> None:
         """Give every buffer back to the context."""
-        for array in self._arrays.values():
-            array.release()
-        for buffer in (*self._buffers.values(), self.morphed, self._indices):
+        self._release_order()
+        for buffer in (*self._buffers.values(), self.morphed):
             buffer.release()
-        if self._edges is not None:
-            self._edges.release()
 
 
 def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
@@ -191,7 +229,9 @@ def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
 _OfTriangles = tuple[Sequence[Material], Int64]
 
 
-def _parts(materials: Sequence[_OfTriangles], hem: Hem | None) -> tuple[tuple[Part, ...], Int64]:
+def _parts(
+    materials: Sequence[_OfTriangles], hem: Hem | None, shell: Shell | None
+) -> tuple[tuple[Part, ...], Int64]:
     """The runs to draw, opaque ones first, and the order of triangles that makes them.
 
     `materials` are the mesh's own and then each partner's.
@@ -203,13 +243,16 @@ def _parts(materials: Sequence[_OfTriangles], hem: Hem | None) -> tuple[tuple[Pa
     for known, of_partner in materials[1:]:
         # Numbered anew each time: products of many people's counts of materials would overflow.
         key = np.unique(key, return_inverse=True)[1] * len(known) + of_partner
+    in_shell = np.zeros(len(of_triangle), bool) if shell is None else shell.triangles
+    key = key * 2 + in_shell
     order = np.argsort(key, kind="stable")
     _, first, count = np.unique(key[order], return_index=True, return_counts=True)
     parts = []
     for start, number in zip(first.tolist(), count.tolist(), strict=True):
         triangle = order[start]
         material, *partners = (known[index[triangle]] for known, index in materials)
-        parts.append(Part(material, start, number, bool(in_hem[triangle]), tuple(partners)))
+        faded, closed = bool(in_hem[triangle]), bool(in_shell[triangle])
+        parts.append(Part(material, start, number, faded, tuple(partners), closed))
     return tuple(parts), order
 
 

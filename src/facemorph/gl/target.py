@@ -12,6 +12,10 @@ from facemorph.errors import GraphicsError
 if TYPE_CHECKING:
     import moderngl
 
+_ROWS_AT_ONCE = 32
+# A pixel that is opaque and black, as one number.
+_ALPHA = np.array([0, 0, 0, 255], np.uint8).view(np.uint32)[0]
+
 
 class Target:
     """Colour and depth of one size. `texture` holds the finished picture, premultiplied by its alpha."""
@@ -66,9 +70,12 @@ class Target:
         if self._plain is None:
             raise GraphicsError("nothing has been drawn yet; call draw first.")
         width, height = self.size
-        data = self._plain.read(components=4, alignment=1)
-        pixels = np.frombuffer(data, np.uint8).reshape(height, width, 4)[::-1].copy()
-        if pixels[..., 3].min() < 255:
+        pixels = np.empty((height, width, 4), np.uint8)
+        self._plain.read_into(pixels, components=4, alignment=1)
+        _turn_over(pixels)
+        # All channels of a pixel at once: numpy is three times slower at every fourth byte.
+        least = np.bitwise_and.reduce(pixels.view(np.uint32), axis=None)
+        if least & _ALPHA != _ALPHA:
             _unmultiply(pixels)
         return pixels
 
@@ -82,6 +89,17 @@ class Target:
                 framebuffer.release()
         self._plain = self._sampled = self._colour = None
         self.size = (0, 0)
+
+
+def _turn_over(pixels: UInt8) -> None:
+    """The last row first, in place: a second array of a picture's size costs more than moving its rows."""
+    height = len(pixels)
+    for start in range(0, height // 2, _ROWS_AT_ONCE):
+        end = min(start + _ROWS_AT_ONCE, height // 2)
+        above, below = pixels[start:end], pixels[height - end : height - start]
+        kept = above.copy()
+        above[:] = below[::-1]
+        below[:] = kept[::-1]
 
 
 def _unmultiply(pixels: UInt8) -> None:

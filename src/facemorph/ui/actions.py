@@ -74,7 +74,7 @@ def reset_weights(app: App) -> None:
 
 def reset_face(app: App) -> None:
     """Neutral again: no shapes added, every method at rest, the slider at its start from neutral."""
-    app.playback.stop()
+    app.stop_playing()
     app.pose = Pose(target=app.pose.target, curve=app.pose.curve)
     app.controls = Controls()
 

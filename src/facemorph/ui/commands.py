@@ -7,8 +7,6 @@ A command is added by one line here. `menu` is the path of menus it hangs in, ""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
@@ -19,6 +17,11 @@ from facemorph.core.pose import NEUTRAL, state_of
 from facemorph.core.rig import plain_label
 from facemorph.ui import actions, files
 from facemorph.ui.chord import Chord
+from facemorph.ui.command import Command, always, has_expressions, has_face, has_shapes
+from facemorph.ui.emotion_commands import EMOTION
+from facemorph.ui.method_commands import METHOD_COMMANDS
+from facemorph.ui.page_commands import page_commands
+from facemorph.ui.people_commands import PEOPLE
 from facemorph.ui.state import App
 from facemorph.ui.words import NEUTRAL_LABEL
 
@@ -42,52 +45,6 @@ CURVE_HELP = {
     "linear": "Even speed: P(t) = (1 - t) P0 + t P1 (2.5)",
     "cosine": "Starts and ends gently: t' = (1 - cos(pi t)) / 2 (2.1, after Parke 1972)",
 }
-
-
-def always(app: App) -> bool:
-    """Nothing stands in the way."""
-    return True
-
-
-def has_face(app: App) -> bool:
-    """A face is open."""
-    return app.face is not None
-
-
-def has_shapes(app: App) -> bool:
-    """The face has something to morph to."""
-    return app.face is not None and bool(app.face.rig.shapes)
-
-
-def has_expressions(app: App) -> bool:
-    """The slider has somewhere to go."""
-    return bool(app.expressions)
-
-
-@dataclass(frozen=True)
-class Command:
-    """One thing the user can do. `title` may depend on the state; `keys` are alternatives."""
-
-    title: str
-    action: Callable[[App], None]
-    menu: str = ""
-    keys: tuple[Chord, ...] = ()
-    group: int = 0
-    enabled: Callable[[App], bool] = always
-    checked: Callable[[App], bool] | None = None
-    note: Callable[[App], str] | None = None
-    help: str = ""
-    repeats: bool = False
-
-    def full_title(self, app: App) -> str:
-        """The title with what it would act on: `Undo: slider to 0.62`."""
-        note = self.note(app) if self.note else ""
-        return f"{self.title}: {note}" if note else self.title
-
-    def run(self, app: App) -> None:
-        """Do it, if it can be done now."""
-        if self.enabled(app):
-            self.action(app)
 
 
 def _keys(text: str) -> tuple[Chord, ...]:
@@ -128,11 +85,11 @@ EDIT = (
     Command("Redo", actions.redo, "Edit", _keys("Ctrl+Shift+Z Ctrl+Y"), 0,
             lambda app: bool(app.history.redo_words), note=lambda app: app.history.redo_words, repeats=True),
     Command("Reset face", actions.reset_face, "Edit", _keys("Ctrl+R"), 1, has_shapes,
-            help="Neutral again, no shapes added"),
+            help="Neutral again: no shapes added, every page at rest"),
     Command("Reset all shapes", actions.reset_weights, "Edit", (), 1, lambda app: bool(app.pose.weights),
-            help="Takes out what the Shapes panel adds; the slider stays"),
+            help="Takes out what the page Shapes adds; the slider and the other pages stay"),
     Command("Shapes on", actions.toggle_shapes, "Edit", (), 1, has_shapes, lambda app: app.shapes_on,
-            help="Take what the Shapes panel adds out of the face, and put it back"),
+            help="Take what the page Shapes adds out of the face, and put it back"),
     Command("Weights below 0 and above 1", actions.toggle_wide, "Edit", (), 2, has_shapes,
             lambda app: app.settings.wide_weights,
             help="Exaggerate a shape, or run it backwards; the face may fold through itself"),
@@ -175,7 +132,7 @@ VIEW = (
             lambda app: app.look.wire),
     Command("Faces panel", actions.toggle_left, "View", (), 3, always,
             lambda app: app.settings.left_open and not app.panels_hidden),
-    Command("Shapes panel", actions.toggle_right, "View", (), 3, always,
+    Command("Pages panel", actions.toggle_right, "View", (), 3, always,
             lambda app: app.settings.right_open and not app.panels_hidden),
     Command("Hide the panels", actions.toggle_panels, "View", _keys("Tab"), 3, always,
             lambda app: app.panels_hidden),
@@ -189,12 +146,12 @@ HELP = (
     Command("About facemorph", actions.show_about, "Help", (), 1),
 )
 
-STATIC = FILE + EDIT + SLIDER + VIEW + HELP
+STATIC = FILE + EDIT + SLIDER + VIEW + EMOTION + PEOPLE + METHOD_COMMANDS + HELP
 
 
 def commands(app: App) -> tuple[Command, ...]:
     """Every command there is now, in the menus' order."""
-    return (*_opening(app), *_expressions(app), *STATIC)
+    return (*_opening(app), *_expressions(app), *page_commands(), *STATIC)
 
 
 def _expressions(app: App) -> tuple[Command, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -11,13 +12,14 @@ from facemorph.core.lengths import displacements
 from facemorph.core.morph import Curve, eased
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
-from facemorph.core.rig import Rig
+from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.core.scene import Scene
 from facemorph.deform.controls import METHODS, BoundControls, Controls
 from facemorph.deform.rebuild import control_vertices, rebuilt
 from facemorph.errors import FacemorphError
 from facemorph.ui.actions import tell_error
 from facemorph.ui.lab import Paths
+from facemorph.ui.methods import OWN
 from facemorph.ui.state import App
 from facemorph.ui.words import METHOD_WORDS
 
@@ -33,18 +35,20 @@ def running(pose: Pose, controls: Controls, t: float) -> tuple[Pose, Controls]:
     return replace(pose, t=t), replace(controls, regions=regions, people=replace(controls.people, t=t))
 
 
-def refresh_paths(app: App, rig: Rig, vertex: int) -> None:
-    """Have the vertex's paths made for what is set now, unless that is done or under way."""
+def refresh_paths(app: App, rig: Rig, followed: int | str) -> None:
+    """Have the paths of a vertex or of a shape's weight made for what is set now, if they are not yet."""
     page, pose, controls = app.lab.compare, app.shown_pose, app.controls
-    asked = (rig, vertex, *running(pose, controls, 0.0), app.painted, tuple(app.methods.people))
+    asked = (rig, followed, *running(pose, controls, 0.0), app.painted, tuple(app.methods.people))
     if page.asked == asked:
         return
     page.asked = asked
     # The window's own binding is not for other threads: it keeps what it made last.
-    bound = BoundControls(rig, app.face.title if app.face else "", dict(app.methods.people), app.painted)
+    bound = BoundControls(rig, OWN, dict(app.methods.people), app.painted)
 
     def work(progress: Progress) -> Paths:
-        return paths(rig, vertex, pose, controls, bound, progress)
+        if isinstance(followed, int):
+            return paths(rig, followed, pose, controls, bound, progress)
+        return weight_paths(rig, followed, pose, controls, bound, progress)
 
     def done(made: Paths) -> None:
         page.paths = made
@@ -53,7 +57,7 @@ def refresh_paths(app: App, rig: Rig, vertex: int) -> None:
         page.paths = None
         tell_error(app, "The paths were not compared", error)
 
-    app.jobs.start("Following a vertex", work, done, failed, kind="paths", quiet=True)
+    app.jobs.start("Following t", work, done, failed, kind="paths", quiet=True)
 
 
 def paths(
@@ -64,21 +68,64 @@ def paths(
     Present is the sum of all methods; linear is (2.5) from where that begins to where it ends, cosine the
     same with t eased (2.1). Speed is |dP/dt|, acceleration its change d|dP/dt|/dt, by differences.
     """
-    t = np.linspace(0.0, 1.0, SAMPLES)
-    places = np.empty((SAMPLES, 3))
-    for place, at in enumerate(t):
-        progress(place / SAMPLES, "Following a vertex")
-        places[place] = _place(rig, vertex, *running(pose, controls, float(at)), bound)
-    ways = {PRESENT: places}
-    for name, curve in ((LINEAR, "linear"), (COSINE, "cosine")):
-        e = np.array([eased(float(at), _CURVES[curve]) for at in t])[:, None]
-        ways[name] = (1.0 - e) * places[0] + e * places[-1]
+
+    def place(at: float) -> Float64:
+        return _place(rig, vertex, *running(pose, controls, at), bound)
+
+    t, ways = _ways(place, progress)
     distance = {name: np.linalg.norm(way - way[0], axis=1) for name, way in ways.items()}
     speed = {
         name: np.linalg.norm(np.gradient(way, t, axis=0, edge_order=2), axis=1) for name, way in ways.items()
     }
     acceleration = {name: np.gradient(values, t, edge_order=2) for name, values in speed.items()}
     return Paths(t, distance, speed, acceleration)
+
+
+def weight_paths(
+    rig: Rig, shape: str, pose: Pose, controls: Controls, bound: BoundControls, progress: Progress
+) -> Paths:
+    """What a shape's weight does as t runs 0..1, by the same three methods; speed and acceleration signed.
+
+    The weight is the sum of what the slider, the shapes and every method add; regions and handles move the
+    face without weights.
+    """
+    index = rig.names.index(shape)
+
+    def weight(at: float) -> Float64:
+        pose_then, controls_then = running(pose, controls, at)
+        coefficients = bound(pose_then, controls_then).added_to(pose_then).coefficients(rig.names)
+        return coefficients[index : index + 1]
+
+    t, ways = _ways(weight, progress)
+    value = {name: way[:, 0] for name, way in ways.items()}
+    speed = {name: np.gradient(values, t, edge_order=2) for name, values in value.items()}
+    acceleration = {name: np.gradient(values, t, edge_order=2) for name, values in speed.items()}
+    return Paths(t, value, speed, acceleration)
+
+
+def _ways(at_t: Callable[[float], Float64], progress: Progress) -> tuple[Float64, dict[str, Float64]]:
+    """t (n,), and by method what `at_t` gives (n, d): as it is, and straight between its two ends."""
+    t = np.linspace(0.0, 1.0, SAMPLES)
+    found = []
+    for place, at in enumerate(t):
+        progress(place / SAMPLES, "Following t")
+        found.append(at_t(float(at)))
+    present = np.array(found)
+    ways = {PRESENT: present}
+    for name, curve in ((LINEAR, "linear"), (COSINE, "cosine")):
+        e = np.array([eased(float(at), _CURVES[curve]) for at in t])[:, None]
+        ways[name] = (1.0 - e) * present[0] + e * present[-1]
+    return t, ways
+
+
+def shapes_now(app: App, rig: Rig) -> dict[str, str]:
+    """Shapes whose weight can be followed, with words: expressions, and what any page sets now."""
+    pose, controls = app.shown_pose, app.controls
+    moving = {*pose.names(), *(f"AU{number}" for number in controls.facs), *controls.emotion.weights()}
+    moving |= {*controls.people.source, *controls.people.target}
+    return {
+        shape.name: shape.label for shape in rig.shapes if shape.set == EXPRESSION or shape.name in moving
+    }
 
 
 _CURVES: dict[str, Curve] = {"linear": "linear", "cosine": "cosine"}
@@ -153,7 +200,7 @@ def scene_by(app: App, rig: Rig, method: str) -> Scene:
             controls = replace(controls, off=controls.off | {layer})
     elif method == REBUILT:
         return _rebuilt_scene(app, rig, pose)
-    return Scene.moved(pose, app.methods.bound(app)(pose, controls))
+    return app.methods.made(app.methods.bound(app), pose, controls)
 
 
 def _target_name(app: App, rig: Rig) -> str:
@@ -165,7 +212,7 @@ def _rebuilt_scene(app: App, rig: Rig, pose: Pose) -> Scene:
     """The slider's way to the target as n points know it: e times the rebuilt displacement (2.13)."""
     way = np.float32(eased(pose.t, pose.curve)) * _rebuilt_way(app, rig, pose)
     still = replace(pose, target=pose.source, t=0.0)
-    scene = Scene.moved(still, app.methods.bound(app)(still, app.controls))
+    scene = app.methods.made(app.methods.bound(app), still, app.controls)
     return replace(scene, offsets=way if scene.offsets is None else scene.offsets + way)
 
 

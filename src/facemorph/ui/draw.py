@@ -17,6 +17,8 @@ def draw_ui(app: App) -> None:
     free = not (imgui.is_popup_open("", imgui.PopupFlags_.any_popup) or imgui.get_io().want_text_input)
     layout = laid_out(app)
     app.methods.hovered = {}
+    app.pages.emotion.wanted = ()
+    app.pages.people.wanted = {}
     run_hotkeys(app)
     for part in parts():
         part(app, layout)

@@ -16,6 +16,7 @@ from imgui_bundle import imgui
 from facemorph.ui.theme import FONT_PIXELS
 
 PLAY, PAUSE, LOOP, SEARCH = "\uf04b", "\uf04c", "\uf363", "\uf002"
+RECORD, STOP = "\uf111", "\uf04d"
 CLOSE, COPY, PASTE = "\uf00d", "\uf0c5", "\uf0ea"
 FOLDER, FILE, UP = "\uf07b", "\uf15b", "\uf062"
 

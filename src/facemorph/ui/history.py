@@ -7,6 +7,7 @@ drag is one step, and no way of changing a face can be forgotten.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 MOST_STEPS = 300
 # A rig holds tens of megabytes, so older faces are let go together with the steps that need them.
 MOST_FACES = 4
+MOST_PEOPLE = 16
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,12 @@ class Snapshot:
     shapes_on: bool
     controls: Controls = field(default_factory=Controls)
     painted: RegionSet | None = None
+
+    @property
+    def people(self) -> set[str]:
+        """Everybody in the mixture, by name."""
+        mix = self.controls.people.mix
+        return set() if mix is None else {*mix.source, mix.target}
 
 
 @dataclass
@@ -52,6 +60,11 @@ class History:
             self._forget()
         self.present = now
 
+    def carry(self, moved: Callable[[Snapshot], Snapshot]) -> None:
+        """Let the present snapshot go along with what moves by itself, so that no step comes of it."""
+        if self.present is not None:
+            self.present = moved(self.present)
+
     def undo(self, now: Snapshot) -> Snapshot | None:
         """The snapshot one step back, or None at the beginning."""
         self.settle(now, busy=False)
@@ -61,6 +74,12 @@ class History:
         """The snapshot one step forward, or None at the end."""
         self.settle(now, busy=False)
         return self._move(self._future, self._past)
+
+    def people(self) -> set[str]:
+        """Everybody whom some step needs, by name."""
+        steps = [snapshot for snapshot, _ in (*self._past, *self._future)]
+        kept = steps if self.present is None else [*steps, self.present]
+        return {name for snapshot in kept for name in snapshot.people}
 
     @property
     def undo_words(self) -> str:
@@ -85,10 +104,12 @@ class History:
     def _forget(self) -> None:
         del self._past[: max(len(self._past) - MOST_STEPS, 0)]
         faces: list[int] = []
+        people: set[str] = set()
         for place in range(len(self._past) - 1, -1, -1):
             key = id(self._past[place][0].face)
             if key not in faces:
                 faces.append(key)
-            if len(faces) > MOST_FACES:
+            people |= self._past[place][0].people
+            if len(faces) > MOST_FACES or len(people) > MOST_PEOPLE:
                 del self._past[: place + 1]
                 return

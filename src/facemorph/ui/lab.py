@@ -87,19 +87,25 @@ class RegionsPage:
 
 @dataclass(frozen=True, eq=False)
 class Paths:
-    """What a vertex does as t runs from 0 to 1, (n,) each, by method: distance, speed, acceleration."""
+    """What a vertex, or a weight, does as t runs from 0 to 1: (n,) each, by method.
+
+    value         a vertex's distance from where it starts; a weight itself
+    speed         how fast that changes; acceleration how fast the speed does
+    """
 
     t: Float64
-    distance: dict[str, Float64]
+    value: dict[str, Float64]
     speed: dict[str, Float64]
     acceleration: dict[str, Float64]
 
 
 @dataclass
 class ComparePage:
-    """The comparison: the vertex watched, its paths, and the two methods of the split view."""
+    """The comparison: the vertex or the weight watched, its paths, and the two methods of the split view."""
 
+    follows: str = "A vertex"
     vertex: int | None = None
+    shape: str = ""
     paths: Paths | None = None
     asked: tuple[object, ...] = ()
     split: bool = False

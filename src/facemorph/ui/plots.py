@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,7 +48,10 @@ def plot(
     logarithmic: bool = False,
     at: float | None = None,
 ) -> None:
-    """Draw lines over one pair of axes, as wide as there is room. `at` marks an x with an upright line."""
+    """Draw lines over one pair of axes, as wide as there is room. `at` marks an x with an upright line.
+
+    The legend stands in the plot, over room that no line enters.
+    """
     if implot.get_current_context() is None:
         implot.create_context()
     _dress(app)
@@ -57,12 +62,16 @@ def plot(
     )
     if implot.begin_plot(f"##{name}", ImVec2(-1, height), flags):
         fit = implot.AxisFlags_.auto_fit | implot.AxisFlags_.no_highlight | implot.AxisFlags_.no_menus
-        implot.setup_axes(x_title, y_title, fit, fit)
+        implot.setup_axes(x_title, y_title, fit, fit & ~implot.AxisFlags_.auto_fit)
         if logarithmic:
             implot.setup_axis_scale(implot.ImAxis_.y1, implot.Scale_.log10)
+        line_height = imgui.get_text_line_height()
+        inside = max(height - line_height * (2.6 if x_title else 1.4), 1.0)
+        low, high = _limits(lines, (line_height * 1.5) / inside if legend else 0.0, logarithmic=logarithmic)
+        implot.setup_axis_limits(implot.ImAxis_.y1, low, high, imgui.Cond_.always)
         if legend:
-            outside = implot.LegendFlags_.outside | implot.LegendFlags_.horizontal
-            implot.setup_legend(implot.Location_.north, outside | implot.LegendFlags_.no_menus)
+            flat = implot.LegendFlags_.horizontal | implot.LegendFlags_.no_menus
+            implot.setup_legend(implot.Location_.north, flat)
         for place, line in enumerate(sorted(lines, key=lambda line: not line.ground)):
             implot.plot_line(line.name, _array(line.x), _array(line.y), _spec(app, place, line))
         if at is not None:
@@ -70,6 +79,33 @@ def plot(
             implot.plot_inf_lines("##now", np.array([at]), mark)
         implot.end_plot()
     _undress()
+
+
+@contextlib.contextmanager
+def aligned_plots(name: str) -> Iterator[None]:
+    """Plots drawn in the block have their axes one under the other."""
+    if implot.get_current_context() is None:
+        implot.create_context()
+    aligned = implot.begin_aligned_plots(name)
+    try:
+        yield
+    finally:
+        if aligned:
+            implot.end_aligned_plots()
+
+
+def _limits(lines: tuple[Line, ...], spare: float, *, logarithmic: bool) -> tuple[float, float]:
+    """The y axis' ends: all lines with a margin, and the part `spare` of its height free above them."""
+    values = np.concatenate([line.y[np.isfinite(line.y)] for line in lines] or [np.zeros(1)])
+    if logarithmic:
+        values = np.log10(values[values > 0.0])
+    low, high = (float(values.min()), float(values.max())) if len(values) else (0.0, 1.0)
+    # A line that does not change stands in the middle, on an axis that says so.
+    middle = (high - low) <= 1e-6 * max(abs(low), abs(high), 1e-3)
+    margin = max(abs(high) / 2.0, 0.1) if middle else 0.06 * (high - low)
+    low, high = low - margin, high + margin
+    high = low + (high - low) / (1.0 - min(spare, 0.5))
+    return (10.0**low, 10.0**high) if logarithmic else (low, high)
 
 
 def release_plots() -> None:
@@ -103,7 +139,7 @@ def _dress(app: App) -> None:
     implot.push_style_color(implot.Col_.frame_bg, clear)
     implot.push_style_color(implot.Col_.plot_bg, ImVec4(*c.field))
     implot.push_style_color(implot.Col_.plot_border, ImVec4(*c.line))
-    implot.push_style_color(implot.Col_.legend_bg, clear)
+    implot.push_style_color(implot.Col_.legend_bg, ImVec4(*c.field))
     implot.push_style_color(implot.Col_.legend_border, clear)
     implot.push_style_color(implot.Col_.axis_grid, ImVec4(*c.line))
     implot.push_style_var(implot.StyleVar_.plot_padding, ImVec2(12 * scale, 4 * scale))

@@ -16,10 +16,12 @@ from imgui_bundle import imgui
 from facemorph.core.camera import Camera
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
-from facemorph.ui import actions, files, fonts, theme
+from facemorph.ui import actions, emotion, files, fonts, theme
 from facemorph.ui.draw import draw_ui
+from facemorph.ui.emotion_pictures import PolePictures
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
+from facemorph.ui.people_pictures import CornerPictures
 from facemorph.ui.plots import release_plots
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
@@ -42,6 +44,8 @@ class Session:
         self.split = SplitView(second or (lambda: _another(renderer)))
         self.renderer = renderer
         self.thumbnails = thumbnails
+        self.poles = PolePictures()
+        self.corners = CornerPictures()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
@@ -61,6 +65,7 @@ class Session:
         self._begin(scale)
         imgui.new_frame()
         draw_ui(app)
+        emotion.take_sample(app, self._last_secs)
         self._fulfil(app)
         self._draw_face(app)
         busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
@@ -69,9 +74,10 @@ class Session:
     def wants_frame_in(self) -> float | None:
         """Seconds until something moves by itself: 0 at once, None not before the user does something."""
         app = self.app
-        moving = app.playback.playing or app.turntable or sliding(app)
+        moving = app.playback.playing or app.turntable or sliding(app) or app.pages.emotion.moves_by_itself
         waiting = app.arriving or app.chooser.fresh or (app.face and (app.framing or app.picture_path))
-        thumbs = self.thumbnails is not None and self.thumbnails.busy
+        thumbs = (self.thumbnails is not None and self.thumbnails.busy) or self.poles.busy(app)
+        thumbs = thumbs or self.corners.busy(app)
         if moving or waiting or thumbs or self._hurried:
             return 0.0
         if app.jobs.running or app.chooser.dialog is not None:
@@ -87,6 +93,8 @@ class Session:
             self.app.chooser.dialog.close()
         if self.thumbnails is not None:
             self.thumbnails.release()
+        self.poles.release()
+        self.corners.release()
         self.renderer.release()
 
     def _begin(self, scale: float) -> None:
@@ -97,6 +105,7 @@ class Session:
         self._take_arriving(app)
         if app.playback.playing:
             app.pose = replace(app.pose, t=app.playback.advanced(elapsed))
+        emotion.advance(app, elapsed)
         if app.turntable:
             app.camera = app.camera.orbited(elapsed * TURNTABLE_DEGREES_PER_SEC, 0.0)
         if self.thumbnails is not None:
@@ -160,9 +169,13 @@ class Session:
             return
         if app.face is not self._loaded:
             self._load(app.face)
+        pictured = self.poles.step(app, self.renderer) or self.corners.step(app, self.renderer)
+        if pictured:
+            self._drawn = ()
         view = app.views()[0]
         # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
-        moving = bool(app.drag) or app.playback.playing or app.turntable or imgui.is_any_item_active()
+        playing = app.playback.playing or app.pages.emotion.player.playing
+        moving = bool(app.drag) or playing or app.turntable or imgui.is_any_item_active()
         quality: Quality = "fast" if moving and app.picture_path is None else "full"
         scene = app.scene()
         wanted = (
@@ -180,7 +193,7 @@ class Session:
             self._scene = scene
             self.renderer.draw(scene, app.camera, app.shown_look, view.size, quality=quality)
             self._drawn = (*wanted, quality)
-        self._hurried = False
+        self._hurried = pictured
         self._legend(app)
         show(self.renderer, view)
         if app.on_face.split is not None:

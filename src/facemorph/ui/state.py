@@ -231,7 +231,7 @@ class App:
             self.framing = "front"
         self.face, self.pose, self.shapes_on = snapshot.face, snapshot.pose, snapshot.shapes_on
         self.controls, self.painted = snapshot.controls, snapshot.painted
-        self.playback.stop()
+        self.stop_playing()
 
     def show(self, face: Face, pose: Pose | None = None) -> None:
         """Make `face` the present one, at rest or in `pose`, seen from the front."""
@@ -242,7 +242,12 @@ class App:
         self.lab = Lab()
         self.framing = "front"
         self.shapes = ShapesPanel()
+        self.stop_playing()
+
+    def stop_playing(self) -> None:
+        """Leave everything that plays where it is."""
         self.playback.stop()
+        self.pages.emotion.player.stop()
 
     def type_into(self, name: str) -> None:
         """Open the number beside a slider for typing."""

@@ -1,4 +1,4 @@
-"""Pictures of the built-in people for the faces panel: made once, a piece a frame, and cached."""
+"""Pictures of the built-in people for the pages Faces and People: made once, a piece a frame, and cached."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _BACKGROUND = (0.20, 0.21, 0.23, 1.0)
 
 
 class Thumbnails:
-    """Fills `app.face_pictures`, one built-in at a time, while the faces panel is open.
+    """Fills `app.face_pictures`, one built-in at a time, while a page shows them.
 
     The mesh is read in a worker thread; the frames after that load it into a renderer of its own, draw
     it, and hand the pixels to a texture. A picture that is in the cache skips the first two.
@@ -45,7 +45,7 @@ class Thumbnails:
 
     def step(self, app: App) -> None:
         """One piece of the work, if there is any and its place is in sight."""
-        if not app.settings.left_open or app.panels_hidden:
+        if not _in_sight(app):
             self._more = False
             return
         self._more = any(name not in self._asked for name in app.builtins)
@@ -119,6 +119,11 @@ class Thumbnails:
         for texture in self._textures.values():
             texture.release()
         self._textures.clear()
+
+
+def _in_sight(app: App) -> bool:
+    people = app.settings.right_open and app.settings.right_page == "People"
+    return (app.settings.left_open or people) and not app.panels_hidden
 
 
 def cache_folder() -> Path | None:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from facemorph.core.pose import State
 from facemorph.core.rig import Rig, plain_label
-from facemorph.deform.controls import METHODS
+from facemorph.deform.controls import METHODS, PeopleControl
+from facemorph.ui.methods import OWN
 
 if TYPE_CHECKING:
     from facemorph.ui.history import Snapshot
@@ -58,6 +59,8 @@ def change_words(before: Snapshot, after: Snapshot) -> str:
         return "painted regions"
     changed = [m for m in METHODS if getattr(before.controls, m) != getattr(after.controls, m)]
     switched = before.controls.off ^ after.controls.off
+    if changed[:1] == ["people"]:
+        return _people_words(before.controls.people, after)
     if changed or switched:
         return METHOD_WORDS[next(iter(changed or sorted(switched)))]
     was, now = before.pose, after.pose
@@ -72,6 +75,19 @@ def change_words(before: Snapshot, after: Snapshot) -> str:
     if was.t != now.t and was.source == now.source:
         return f"slider to {now.t:.2f}"
     return f"start from {state_words(rig, now.source)}" if rig else "start"
+
+
+def _people_words(was: PeopleControl, after: Snapshot) -> str:
+    now, rig = after.controls.people, after.face.rig if after.face else None
+    goal = now.mix.target if now.mix else OWN
+    if goal not in (OWN, was.mix.target if was.mix else OWN):
+        return f"people, choose {goal}"
+    # The page's first goal is there without being chosen; the first drag only writes it down.
+    chosen = now.target != was.target and bool(was.source or was.target or now.t == 0.0)
+    if rig is not None and chosen and (now.source or now.target):
+        return f"people, choose {state_words(rig, now.target)}"
+    places = [(kept.mix.s if kept.mix else 0.0, kept.t) for kept in (was, now)]
+    return METHOD_WORDS["people"] if places[0] == places[1] else "people to {:.2f}, {:.2f}".format(*places[1])
 
 
 def duration_words(seconds: float) -> str:

@@ -35,11 +35,13 @@ def left_tabs() -> tuple[Tab, ...]:
 
 def right_tabs() -> tuple[Tab, ...]:
     """The pose, in layers: each page is one method and adds to the sum."""
-    from facemorph.ui.panels import compare, facs, handles, regions, shapes
+    from facemorph.ui.panels import compare, emotion, facs, handles, people, regions, shapes
 
     return (
         Tab("Shapes", shapes.draw, shapes.moves_face, "Every shape of the face, added on top"),
         Tab("FACS", facs.draw, facs.moves_face, "Single movements that add up to expressions (2.1.2)"),
+        Tab("Emotion", emotion.draw, emotion.moves_face, "A cursor among expressions mixes them (2.1.2)"),
+        Tab("People", people.draw, people.moves_face, "Between two people and two expressions (2.2)"),
         Tab("Handles", handles.draw, handles.moves_face, "Points on the face that are dragged: RBF (2.3)"),
         Tab("Regions", regions.draw, regions.moves_face, "Parts of the face, each on its own way (Parke)"),
         Tab("Compare", compare.draw, tip="Paths, speeds and pictures of several methods side by side"),

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import dialogs, emotion, files, fonts, handles, regions
+from facemorph.ui import dialogs, emotion, files, fonts, handles, people, regions
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
@@ -35,7 +35,7 @@ _SAVING = ("picture", "mesh", "save points", "save regions", "save path")
 _HELP = {
     "open": "A mesh file, or the folder of a face. Tab completes what you type.",
     "folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
-    "person": "A mesh file, or the folder of a face, to mix the present face with. Tab completes what you type.",
+    "person": "A mesh file or folder of a face to mix this one with. Tab completes what you type.",
     "person folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
     "picture": "Where to save the picture (PNG). Tab completes what you type.",
     "mesh": "Where to save the morphed face (OBJ). Tab completes what you type.",
@@ -179,10 +179,13 @@ def _take(app: App, purpose: str, paths: list[Path]) -> None:
         emotion.open_path(app, first)
     elif purpose == "save path":
         emotion.save_path(app, first)
-    elif len(paths) == 1 and first.name == "face.toml":
-        files.open_source(app, (str(first.parent),))
     else:
-        files.open_source(app, [str(path) for path in paths])
+        whole = len(paths) == 1 and first.name == "face.toml"
+        source = [str(path) for path in ([first.parent] if whole else paths)]
+        if purpose in ("person", "person folder"):
+            people.ask_files(app, source, anew=True)
+        else:
+            files.open_source(app, source)
 
 
 def _field(app: App, found: list[Entry]) -> bool:

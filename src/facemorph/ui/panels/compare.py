@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.arrays import Float64
 from facemorph.core.rig import Rig
-from facemorph.ui import actions, comparing
+from facemorph.ui import actions, comparing, fonts
+from facemorph.ui.lab import Paths
 from facemorph.ui.on_face import OnlyPaints, Split
 from facemorph.ui.on_screen import picked, projected, shown_places, surface_of
 from facemorph.ui.panels.rows import divider, quiet_words
-from facemorph.ui.panels.value_rows import button_row, choice_row, switch_row, unit_words
-from facemorph.ui.plots import Line, plot
+from facemorph.ui.panels.value_rows import choice_row, switch_row, unit_words
+from facemorph.ui.plots import Line, aligned_plots, plot
 from facemorph.ui.state import App, Viewport
 from facemorph.ui.theme import faded, packed
-from facemorph.ui.widgets import colours, cut, tooltip, unit
+from facemorph.ui.widgets import colours, cut, icon_button, right_edge, row_label, tab_chips, tooltip, unit
 
 _SPLIT_TIP = (
     "Shows the face twice at the same t, by two methods: linear (2.5), cosine (2.1), RBF (2.13), or without "
@@ -25,6 +27,16 @@ _PATHS_TIP = (
     "it ends (2.5); cosine the same way, starting and ending gently (2.1). Linear motion starts and stops "
     "at once: its acceleration is 0 between, and without bound at both ends."
 )
+_WEIGHT_TIP = (
+    "The shape whose weight is followed: the sum of what the slider, the shapes and every page add. "
+    "Regions and handles move the face without weights"
+)
+VERTEX = "A vertex"
+_FOLLOWS = (
+    (VERTEX, "Where a vertex of the face goes: click on the face to choose it"),
+    ("A weight", "How much of a shape the face has"),
+)
+_ORDER = (comparing.PRESENT, comparing.LINEAR, comparing.COSINE)
 _HEAT_TIP = "The right face shows by its colours how far it is from the left one"
 
 
@@ -37,9 +49,16 @@ def draw(app: App) -> None:
         return
     imgui.begin_child("compare page", ImVec2(0, 0))
     _split(app, app.rig)
-    divider(app, "A vertex on its way")
+    divider(app, "As t runs from 0 to 1")
     tooltip(_PATHS_TIP)
-    _paths(app, app.rig)
+    page = app.lab.compare
+    follows = tab_chips(app, _FOLLOWS, page.follows)
+    if follows != page.follows:
+        page.follows, page.paths, page.asked = follows, None, ()
+    if follows == VERTEX:
+        _vertex(app, app.rig)
+    else:
+        _weight(app, app.rig)
     app.on_face.tool = PickTool()
     imgui.end_child()
 
@@ -73,40 +92,73 @@ def _split(app: App, rig: Rig) -> None:
     )
 
 
-def _paths(app: App, rig: Rig) -> None:
+def _vertex(app: App, rig: Rig) -> None:
     page = app.lab.compare
     if page.vertex is None or page.vertex >= rig.neutral.vertex_count:
         quiet_words("Click on the face to choose a vertex; its path is drawn here.")
         return
     comparing.refresh_paths(app, rig, page.vertex)
-    quiet_words(f"Vertex {page.vertex:,} as t runs from 0 to 1: the slider, the regions and the people.")
-    if button_row(app, (("Forget vertex", "No vertex is followed any more", True),)):
+    words, unit_name = f"Vertex {page.vertex:,}", unit_words(rig)
+    row_label(app, words, imgui.get_content_region_avail().x - imgui.get_frame_height() - 8 * unit())
+    imgui.same_line(right_edge() - imgui.get_frame_height())
+    if icon_button(app, fonts.CLOSE, "forget vertex", "Follow no vertex any more"):
         page.vertex, page.paths, page.asked = None, None, ()
-    made = page.paths
-    if made is None:
-        return
-    height, unit_name = 158 * unit(), unit_words(rig)
-    for name, title, values in (
-        ("distance", f"distance, {unit_name}", made.distance),
-        ("speed", f"speed, {unit_name} per t", made.speed),
-        ("acceleration", f"accel., {unit_name} per t²", made.acceleration),
-    ):
-        # The present way lies on one of the others more often than not: it is drawn wide, under them.
-        lines = tuple(
-            Line(method, made.t, values[method], ground=method == comparing.PRESENT)
-            for method in (comparing.PRESENT, comparing.LINEAR, comparing.COSINE)
-        )
-        last = name == "acceleration"
-        plot(
+    if page.paths is not None:
+        _plots(
             app,
-            name,
-            "t" if last else "",
-            title,
-            lines,
-            height=height,
-            legend=name == "distance",
-            at=app.pose.t,
+            page.paths,
+            f"from the start, {unit_name}",
+            ("distance", unit_name),
+            ("speed", f"{unit_name} per t"),
+            ("accel.", f"{unit_name} per t²"),
         )
+
+
+def _weight(app: App, rig: Rig) -> None:
+    page, choices = app.lab.compare, comparing.shapes_now(app, rig)
+    if not choices:
+        quiet_words("This face has no shapes: no weight to follow.")
+        return
+    if page.shape not in choices:
+        page.shape = next((name for name in app.pose.target if name in choices), next(iter(choices)))
+    page.shape = choice_row(app, "followed shape", "Weight of", page.shape, choices, _WEIGHT_TIP)
+    comparing.refresh_paths(app, rig, page.shape)
+    if page.paths is not None:
+        _plots(app, page.paths, "weight", ("weight", ""), ("speed", "1 per t"), ("accel.", "1 per t²"))
+
+
+def _plots(app: App, made: Paths, what: str, *titles: tuple[str, str]) -> None:
+    """The numbers where the slider stands, and three plots as high as there is room for."""
+    at = app.pose.t
+    shown = {method: float(np.interp(at, made.t, made.value[method])) for method in _ORDER}
+    decimals = 2 if max(map(abs, shown.values())) >= 0.2 else 3
+    # Adding 0 takes the minus from a zero.
+    numbers = ", ".join(
+        f"{method.lower()} {round(value, decimals) + 0.0:.{decimals}f}" for method, value in shown.items()
+    )
+    quiet_words(f"At t = {at:.2f}, {what}: {numbers}.")
+    below = imgui.get_text_line_height_with_spacing()
+    room = imgui.get_content_region_avail().y - below - 5 * imgui.get_style().item_spacing.y
+    height = min(max(room / 3, 124 * unit()), 240 * unit())
+    with aligned_plots("ways"):
+        for (title, unit_name), values in zip(
+            titles, (made.value, made.speed, made.acceleration), strict=True
+        ):
+            # The present way lies on one of the others more often than not: it is drawn wide, under them.
+            lines = tuple(
+                Line(method, made.t, values[method], ground=method == comparing.PRESENT) for method in _ORDER
+            )
+            first, last = values is made.value, values is made.acceleration
+            plot(
+                app,
+                title,
+                "t" if last else "",
+                f"{title}, {unit_name}" if unit_name else title,
+                lines,
+                height=height + (below if last else 0.0),
+                legend=first,
+                at=at,
+            )
 
 
 class PickTool(OnlyPaints):

@@ -139,18 +139,23 @@ def _text(app: App) -> None:
     entered, text = imgui.input_text_with_hint("##units", "Units, such as AU1+4+15", shown, flags)
     if not imgui.is_item_active():
         tooltip(
-            "The face's units as FACS writes them; type and press Enter. 12 is the whole unit, 12C or "
+            "This page's units as FACS writes them; type and press Enter. 12 is the whole unit, 12C or "
             "12(0.6) a part of it, L12 and R12 one side of the face."
         )
     if entered and text.strip() != shown:
         units.set_text(app, text)
     imgui.same_line(0, gap)
-    imgui.begin_disabled(not shown)
-    if icon_button(app, fonts.COPY, "copy", "Copy the units as text"):
+    if icon_button(app, fonts.COPY, "copy", ""):
         units.copy_units(app)
-    imgui.end_disabled()
+    if imgui.is_item_hovered():
+        tooltip(units.copy_help(app))
     imgui.same_line(0, gap)
-    if icon_button(app, fonts.PASTE, "paste", "Paste units from the clipboard"):
+    if icon_button(
+        app,
+        fonts.PASTE,
+        "paste",
+        "Paste units onto this page, in place of those that it has",
+    ):
         units.paste_units(app)
 
 

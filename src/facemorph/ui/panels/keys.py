@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui.commands import MENUS, Command, commands
+from facemorph.ui.command import Command
+from facemorph.ui.commands import MENUS, commands
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.state import App

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from facemorph.ui.commands import MENUS, Command, commands
+from facemorph.ui.command import Command
+from facemorph.ui.commands import MENUS, commands
 from facemorph.ui.layout import Layout
 from facemorph.ui.state import App
 from facemorph.ui.widgets import cut, tooltip, unit
 
-# Submenus hang in their menu before the commands of this group.
-_SUBMENUS = {"File": ("Open recent", "Built-in faces")}
-_SUBMENU_GROUP = 1
+# Submenus hang in their menu before the commands of a group.
+_SUBMENUS = {
+    "File": (1, ("Open recent", "Built-in faces")),
+    "Edit": (1, ("Handles", "Regions")),
+    "Expression": (1, ("FACS units", "Emotion map", "People")),
+    "View": (4, ("Page",)),
+}
 
 
 def draw(app: App, layout: Layout) -> None:
@@ -30,10 +35,10 @@ def draw(app: App, layout: Layout) -> None:
 def _menu(app: App, menu: str, table: tuple[Command, ...]) -> None:
     entries = [command for command in table if command.menu == menu]
     group = entries[0].group if entries else 0
-    submenus = _SUBMENUS.get(menu, ())
+    before, submenus = _SUBMENUS.get(menu, (0, ()))
     for place, command in enumerate(entries):
-        if submenus and command.group >= _SUBMENU_GROUP:
-            _submenus(app, menu, table)
+        if submenus and command.group >= before:
+            _submenus(app, menu, submenus, table)
             submenus = ()
         if command.group != group:
             imgui.separator()
@@ -46,8 +51,8 @@ def _menu(app: App, menu: str, table: tuple[Command, ...]) -> None:
         imgui.text_disabled("Open a face first")
 
 
-def _submenus(app: App, menu: str, table: tuple[Command, ...]) -> None:
-    for title in _SUBMENUS[menu]:
+def _submenus(app: App, menu: str, titles: tuple[str, ...], table: tuple[Command, ...]) -> None:
+    for title in titles:
         entries = [command for command in table if command.menu == f"{menu}/{title}"]
         if imgui.begin_menu(title, bool(entries)):
             for place, command in enumerate(entries):

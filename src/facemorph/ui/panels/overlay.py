@@ -8,7 +8,7 @@ from facemorph.core.camera import DIRECTIONS
 from facemorph.core.picture import SHADINGS
 from facemorph.core.rig import Rig
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend
-from facemorph.ui import actions, handles, regions
+from facemorph.ui import actions, handles, people, regions
 from facemorph.ui.commands import DIRECTION_WORDS, SHADING_WORDS
 from facemorph.ui.layout import Layout
 from facemorph.ui.state import App, Viewport
@@ -91,6 +91,8 @@ def _active_lines(app: App, rig: Rig) -> list[str]:
     lines = [f"{label_of(rig, name)} {percent(weight)}" for name, weight in state if round(weight * 100)]
     if len(lines) > _MOST_LINES:
         lines = [*lines[: _MOST_LINES - 1], f"{len(lines) - _MOST_LINES + 1} more"]
+    if app.controls.on("people") and people.mixes(app):
+        lines.append(people.mixture_words(app, people.shares(app)))
     if app.controls.on("handles") and not handles.at_rest(app):
         lines.append("Handles moved")
     if app.controls.on("regions") and not regions.at_rest(app):

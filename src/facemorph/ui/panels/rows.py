@@ -123,12 +123,13 @@ def weight_row(app: App, row: Row) -> float:
     imgui.same_line(0, 0)
     new = typed_number(app, row.key, new, low, high, number)
     imgui.unindent(6 * scale)
-    if not held and _pointed_at(place, room):
+    if not held and pointed_at(place, room):
         app.methods.hovered = row.lights
     return 0.0 if reset else new
 
 
-def _pointed_at(place: ImVec2, width: float) -> bool:
+def pointed_at(place: ImVec2, width: float) -> bool:
+    """Whether the pointer is on a row that begins at `place`, and nothing is held."""
     height = imgui.get_frame_height()
     inside = imgui.is_mouse_hovering_rect(place, ImVec2(place.x + width, place.y + height))
     return inside and imgui.is_window_hovered() and not imgui.is_any_item_active()

@@ -1,0 +1,4 @@
+#version 330 core
+// For what is only counted.
+
+void main() {}

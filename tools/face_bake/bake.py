@@ -4,6 +4,7 @@ from pathlib import Path
 
 from .hair_atlas import hair_picture
 from .head import Body, Head
+from .lash_pictures import brow_picture, lash_picture
 from .landmarks import find_landmarks
 from .mouth_textures import gum_picture, teeth_picture, tongue_picture
 from .pack import write_shapes
@@ -50,4 +51,5 @@ class Bakery:
         eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
         for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):
             paint(person.look).save(folder / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)
-        hair_picture(person.look).save(folder / "hair.png", optimize=True)
+        for name, paint in (("hair", hair_picture), ("brow", brow_picture), ("lash", lash_picture)):
+            paint(person.look).save(folder / f"{name}.png", optimize=True)

@@ -1,11 +1,18 @@
-"""Eyebrows, drawn hair by hair along a curve on the base head's front."""
+"""Eyebrows: where they lie on the base head's front, small strips of hairs on the skin, and their shade.
+
+Each strip is rooted in a triangle of the fine skin. In an expression root and tip go where their skin
+goes, but the strip keeps its length and its width: hairs slide and turn, they do not shear.
+"""
 
 import numpy as np
+import trimesh
 
+from .finemesh import FineMesh
 from .paintkit import Plane
+from .parts import PartGroup, Posed
 from .people import Look
+from .subdivide import vertex_normals
 
-HAIRS = 520
 # x and y of the brow's middle line from the nose outwards, how much of the arch each point takes,
 # and how much of the lowering (or raising) of the inner end.
 CURVE = np.array(
@@ -13,9 +20,17 @@ CURVE = np.array(
 )
 ARCH = np.array([0, 0, 0.4, 1, 1, 0.5, 0])
 INNER = np.array([1, 0.7, 0.3, 0, 0, 0, 0])
-HALF_WIDTH = ([0, 0.12, 0.5, 0.75, 1], [0.020, 0.027, 0.024, 0.017, 0.006])
-# Hairs stand up near the nose and lie along the brow further out.
-LEAN = ([0, 0.15, 0.5, 1], [75, 48, 22, 4])
+HALF_WIDTH = ([0, 0.12, 0.5, 0.75, 1], [0.022, 0.030, 0.027, 0.019, 0.006])
+# Degrees from the brow's line: hairs stand up near the nose and lie along the brow further out; those of
+# the upper rows turn down towards the others.
+LEAN = ([0, 0.12, 0.3, 0.6, 1], [78, 58, 34, 18, 6])
+UPPER_TURN = ([0, 0.2, 0.4, 1], [12, 30, 34, 16])
+# Strips a brow: places along it times rows across it; each is so many pairs of vertices long.
+PLACES, ROWS, PAIRS = 20, 2, 3
+TILES = 4
+# How much longer than the step to the next strip, and how far strips stand off at root and tip, dm.
+LENGTH = ([0, 0.15, 0.6, 1], [0.050, 0.060, 0.056, 0.046])
+LIFT = np.array([0.002, 0.009, 0.012])
 
 
 class BrowCurve:
@@ -30,51 +45,136 @@ class BrowCurve:
         steps = np.linspace(0, 1, len(CURVE))
         return np.interp(u, steps, self._points[:, 0]), np.interp(u, steps, self._points[:, 1])
 
-    def direction(self, u: float) -> tuple[float, float]:
-        (x0, y0), (x1, y1) = self.at(max(u - 0.02, 0)), self.at(min(u + 0.02, 1))
-        length = np.hypot(x1 - x0, y1 - y0)
-        return (x1 - x0) / length, (y1 - y0) / length
+    def direction(self, u) -> np.ndarray:
+        """Unit vectors (..., 2) along the brow."""
+        (x0, y0), (x1, y1) = self.at(np.maximum(u - 0.04, 0)), self.at(np.minimum(u + 0.04, 1))
+        along = np.stack([x1 - x0, y1 - y0], -1)
+        return along / np.linalg.norm(along, axis=-1, keepdims=True)
 
     def half_width(self, u) -> np.ndarray:
         return np.interp(u, *HALF_WIDTH) * self._thickness
 
 
-def _hair(curve: BrowCurve, rng: np.random.Generator) -> tuple[list, int]:
-    """Three points of one hair, and its grey."""
-    u = rng.uniform(0, 1) ** 0.92
-    (x, y), (tx, ty) = curve.at(u), curve.direction(u)
-    across = np.clip(rng.normal(0, 0.48), -1, 1)
-    width = curve.half_width(u)
-    x, y = x - ty * width * across, y + tx * width * across
-    lean = np.interp(u, *LEAN) * (1 - 0.35 * max(across, 0)) - (18 if across > 0.3 and u > 0.35 else 0)
-    c, s = np.cos(np.radians(lean)), np.sin(np.radians(lean))
-    dx, dy = tx * c - ty * s, tx * s + ty * c
-    length = rng.uniform(0.022, 0.042) * (1 if u < 0.8 else 0.75)
-    middle = (x + dx * length * 0.55, y + dy * length * 0.55)
-    end = (x + dx * length + tx * length * 0.25, y + dy * length - 0.004)
-    return [(x, y), middle, end], int(rng.uniform(130, 255))
+class BrowsPart:
+    """Strips of both brows, the left ones first, from below upwards as hairs overlap."""
+
+    def __init__(self, fine: FineMesh, base_points: np.ndarray):
+        points = fine.operator @ base_points
+        self._triangles = _front_triangles(points, fine.triangles)
+        self._base = trimesh.Trimesh(points, self._triangles, process=False)
+        self._kept = {}
+        count = 2 * PLACES * ROWS
+        strip = np.array([[2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2] for k in range(PAIRS - 1)])
+        polygons = (strip + 2 * PAIRS * np.arange(count)[:, None, None]).reshape(-1, 4)
+        self.groups = [PartGroup("brows", "brow", polygons, polygons)]
+        self.uv = _uv(count)
+
+    def place(self, posed: Posed) -> np.ndarray:
+        person = posed.body.person
+        if person.id not in self._kept:
+            self._kept = {person.id: _Rooted(self, person.look, posed.body.fine_skin(posed.neutral))}
+        return self._kept[person.id].place(posed.skin)
+
+    def anchors(self, places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Triangles (n, 3) of the fine skin and weights (n, 3) in front of places (n, 2) on the base head."""
+        origins = np.c_[places, np.full(len(places), 4.0)]
+        hits, ray, triangle = self._base.ray.intersects_location(
+            origins, np.tile([0.0, 0.0, -1.0], (len(places), 1)), multiple_hits=True
+        )
+        order = np.lexsort((-hits[:, 2], ray))
+        first = order[np.unique(ray[order], return_index=True)[1]]
+        if len(first) != len(places):
+            raise ValueError("a brow leaves the face")
+        corners = self._triangles[triangle[first]]
+        return corners, trimesh.triangles.points_to_barycentric(self._base.vertices[corners], hits[first])
 
 
-def brow_samplers(look: Look, rng: np.random.Generator):
-    """Two functions of (|x|, y): the hairs, and the soft shadow under them."""
-    curve = BrowCurve(look)
-    hairs = Plane(0, 0.7, 7.3, 7.7, 1400, blur=0.0012)
-    for _ in range(HAIRS):
-        points, grey = _hair(curve, rng)
-        hairs.line(points, grey, width=3)
-    u = np.linspace(0, 1, 50)
-    (x, y), half = curve.at(u), curve.half_width(u) * 0.85
+class _Rooted:
+    """The strips of one person."""
+
+    def __init__(self, part: BrowsPart, look: Look, rest: np.ndarray):
+        lines, self._half = _lines(look)
+        self._corners, self._weights = part.anchors(lines.reshape(-1, 2))
+        self._triangles, self._shape = part._triangles, lines.shape[:2]
+        self._used = np.unique(self._triangles)
+        spine, _ = self._on_skin(rest)
+        self._steps = np.linalg.norm(np.diff(spine, axis=1), axis=-1, keepdims=True)
+
+    def _on_skin(self, skin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Middle lines of the strips and the skin's normals there, (strips, PAIRS, 3)."""
+        normals = vertex_normals(skin, self._triangles)
+        spine, normal = (
+            (values[self._corners] * self._weights[..., None]).sum(1).reshape(*self._shape, 3)
+            for values in (skin, normals)
+        )
+        return spine, normal / np.linalg.norm(normal, axis=-1, keepdims=True)
+
+    def place(self, skin: np.ndarray) -> np.ndarray:
+        """Vertices (n, 3) on the skin in a shape."""
+        spine, normal = self._on_skin(skin)
+        steps = np.diff(spine, axis=1)
+        # The skin says which way a hair points, its own length how far.
+        steps = steps / np.maximum(np.linalg.norm(steps, axis=-1, keepdims=True), 1e-9) * self._steps
+        spine = spine[:, :1] + np.concatenate([np.zeros_like(steps[:, :1]), np.cumsum(steps, 1)], 1)
+        along = np.gradient(spine, axis=1)
+        side = np.cross(normal, along)
+        side /= np.linalg.norm(side, axis=-1, keepdims=True)
+        rank = 0.0015 * np.arange(len(spine))[:, None] % PLACES / PLACES
+        raised = spine + (LIFT + rank)[..., None] * normal
+        return np.stack([raised + self._half * side, raised - self._half * side], 2).reshape(-1, 3)
+
+
+def _front_triangles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Those around the brows, with room for every shape of them."""
+    middle = points[triangles].mean(1)
+    return triangles[(np.abs(middle[:, 1] - 7.46) < 0.3) & (middle[:, 2] > 0.9)]
+
+
+def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
+    """Middle lines (strips, PAIRS, 2) on the base head's front and half widths (strips, 1, 1), dm."""
+    rng, curve = np.random.default_rng(7), BrowCurve(look)
+    lines, halves = [], []
+    for row in range(ROWS):
+        u = (np.arange(PLACES) + rng.uniform(0.2, 0.8, PLACES)) / PLACES
+        # The inner end frays: its hairs begin at any height.
+        fray = np.interp(u, [0, 0.25], [0.42, 0.16])
+        across = (-0.60, 0.10)[row] + fray * rng.uniform(-1, 1, PLACES)
+        lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
+        length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.85, 1.1, PLACES)
+        tangent, half = curve.direction(u), curve.half_width(u)
+        root = (
+            np.stack(curve.at(u), -1)
+            + np.stack([-tangent[:, 1], tangent[:, 0]], -1) * (half * across)[:, None]
+        )
+        # The tail thins out: its last hairs must not reach past the brow's end.
+        root = root - tangent * (0.6 * length * u**3)[:, None]
+        turns = np.radians(lean[:, None] - np.array([0.0, 14.0]))
+        steps = [np.stack([np.cos(turn), np.sin(turn)], -1) * length[:, None] / 2 for turn in turns.T]
+        steps = [step[:, :1] * tangent + step[:, 1:] * normal for step in steps]
+        lines.append(np.stack([root, root + steps[0], root + steps[0] + steps[1]], 1))
+        halves.append(np.interp(u, [0, 0.06, 0.25, 1], [0.012, 0.019, 0.024, 0.013]) * look.brow_thickness)
+    one, half = np.concatenate(lines), np.concatenate(halves)
+    return np.concatenate([one, one * [-1, 1]]), np.concatenate([half, half])[:, None, None]
+
+
+def _uv(count: int) -> np.ndarray:
+    """Strips take turns in the picture's tiles; roots at its top. The right brow mirrors the left."""
+    strips = []
+    for k in range(count):
+        tile, inset = k * 3 % TILES, 0.02
+        sides = (tile + inset) / TILES, (tile + 1 - inset) / TILES
+        left, right = sides if k < count // 2 else sides[::-1]
+        v = np.linspace(0.98, 0.02, PAIRS)
+        strips.append(np.stack([np.c_[np.full(PAIRS, left), v], np.c_[np.full(PAIRS, right), v]], 1))
+    return np.stack(strips).reshape(-1, 2)
+
+
+def paint_brows(colour, points, look: Look) -> np.ndarray:
+    """The soft shade under the hairs, over the skin colours (n, 3)."""
+    curve, u = BrowCurve(look), np.linspace(0, 1, 50)
+    (x, y), half = curve.at(u), curve.half_width(u) * 0.8
     outline = np.concatenate([np.c_[x, y + half], np.c_[x, y - half][::-1]])
-    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.007).polygon(outline)
-    return hairs.sampler(), shadow.sampler()
-
-
-def paint_brows(colour, points, look: Look, rng: np.random.Generator) -> np.ndarray:
-    """Brows over the skin colours (n, 3)."""
-    hairs, shadow = brow_samplers(look, rng)
-    across, up, front = np.abs(points[:, 0]), points[:, 1], points[:, 2] > 0.95
-    brow = np.array(look.brow, np.float32)
-    soft = (np.clip(shadow(across, up) * 0.38, 0, 1) * front)[:, None]
-    colour = colour * (1 - soft) + colour * (brow * 0.6 + 0.25) * soft
-    sharp = (np.clip(hairs(across, up) * 0.9, 0, 1) * front)[:, None]
-    return colour * (1 - sharp) + brow * sharp
+    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.010).polygon(outline).sampler()
+    front = points[:, 2] > 0.95
+    soft = (np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.55, 0, 1) * front)[:, None]
+    return colour * (1 - soft) + colour * (np.array(look.brow, np.float32) * 0.6 + 0.25) * soft

@@ -3,6 +3,7 @@
 import numpy as np
 
 from .adapt import AdaptiveMesh, build_adaptive_mesh, choose_faces, rank_faces
+from .brows import BrowsPart
 from .cage import build_cage
 from .finemesh import build_fine_mesh
 from .hair_part import HairPart
@@ -59,6 +60,7 @@ class Head:
             Teeth(upper=False),
             Tongue(),
             self.lashes,
+            BrowsPart(self.fine, self.source.base.points),
             HairPart.of(self.fine, self.source),
         ]
 

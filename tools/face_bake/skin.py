@@ -91,7 +91,7 @@ def _lid_lines(colour, canvas: Canvas, look: Look) -> np.ndarray:
 
 def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> np.ndarray:
     """sRGB colours (p, 3); `light` (p,) is the baked occlusion."""
-    rng, noise, points = np.random.default_rng(seed), Noise(seed), canvas.points
+    noise, points = Noise(seed), canvas.points
     broad, mottling = noise.layered(points, 2.5, 3), noise.layered(points + 7, 14, 4)
     grain = 1 + 0.035 * broad + 0.03 * mottling + 0.022 * noise(points + 3, 120)
     colour = np.array(look.skin, np.float32) * grain[:, None]
@@ -101,7 +101,7 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> 
     colour = _lips(colour, canvas, mottling, noise, look)
     colour = _freckles(colour, points, noise, look)
     colour = _stubble(colour, canvas, noise, look)
-    colour = paint_brows(colour, points, look, rng)
+    colour = paint_brows(colour, points, look)
     colour = paint_hair(colour, points, canvas.ears, noise, look)
     colour = _lid_lines(colour, canvas, look)
     colour = paint_lining(colour, canvas, mottling, look)

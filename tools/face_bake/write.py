@@ -6,6 +6,7 @@ import numpy as np
 
 from .hair_atlas import hair_material
 from .head import Head
+from .lash_pictures import brow_material, lash_material
 from .people import Look, Person
 
 CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
@@ -18,10 +19,12 @@ MATERIALS = {
     "teeth": ((1, 1, 1), 0.5, 60, "teeth.jpg"),
     "gum": ((1, 1, 1), 0.35, 50, "gum.jpg"),
     "tongue": ((1, 1, 1), 0.3, 30, "tongue.jpg"),
-    "lash": ((0.005, 0.0035, 0.003), 0.0, 10, None),
+    "lash": None,
+    "brow": None,
     "hair": None,
 }
-SEE_THROUGH = ("hair",)
+# These have a colour of each person's own; their pictures' opacity lets through what lies behind them.
+SEE_THROUGH = ("lash", "brow", "hair")
 
 
 def layout_text(head: Head, *, textured: bool) -> str:
@@ -57,7 +60,11 @@ def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
 
 def write_mtl(path: Path, look: Look):
     lines = [f"# {LICENCE}"]
-    materials = MATERIALS | {"hair": hair_material(look)}
+    materials = MATERIALS | {
+        "lash": lash_material(look),
+        "brow": brow_material(look),
+        "hair": hair_material(look),
+    }
     for name, (colour, shine, exponent, picture) in materials.items():
         diffuse, specular = (" ".join(f"{part:g}" for part in value) for value in (colour, (shine,) * 3))
         lines += [f"newmtl {name}", f"Kd {diffuse}", f"Ks {specular}", f"Ns {exponent}", "illum 2"]

@@ -16,6 +16,8 @@ GROUPS = [
     "mouth",
     "eye_L",
     "eye_R",
+    "tears",
+    "caruncles",
     "teeth_upper",
     "gums_upper",
     "teeth_lower",
@@ -23,7 +25,7 @@ GROUPS = [
     "tongue",
     "lashes",
 ]
-PICTURES = ("skin.jpg", "eye.png", "teeth.jpg", "gum.jpg", "tongue.jpg")
+PICTURES = ("skin.jpg", "eye.jpg", "teeth.jpg", "gum.jpg", "tongue.jpg")
 REGIONS = ["brows", "eyes", "nose", "cheeks", "mouth", "jaw"]
 MEGABYTE = 1e6
 LARGEST_FOLDER, LARGEST_ZIPPED = 56 * MEGABYTE, 30 * MEGABYTE

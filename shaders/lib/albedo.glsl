@@ -8,6 +8,9 @@ uniform float opacity;
 #ifdef TEXTURED
 uniform sampler2D albedo_texture;
 in vec2 surface_uv;
+#ifndef PAINT_UV
+#define PAINT_UV surface_uv            // where the texture is looked up; a shader may say otherwise
+#endif
 #endif
 
 #ifdef COLOURED
@@ -37,7 +40,7 @@ in vec3 surface_partner@_colour;
 
 vec4 own_stored() {
 #if defined(TEXTURED)
-    return texture(albedo_texture, surface_uv);
+    return texture(albedo_texture, PAINT_UV);
 #elif defined(COLOURED)
     return vec4(surface_colour, 1.0);
 #elif defined(PARTNERS)
@@ -52,7 +55,7 @@ vec4 partner@_stored() {
 #if defined(PARTNER@_UV)
     return texture(partner@_texture, surface_partner@_uv);
 #elif defined(PARTNER@_TEXTURED)
-    return texture(partner@_texture, surface_uv);
+    return texture(partner@_texture, PAINT_UV);
 #elif defined(PARTNER@_COLOURED)
     return vec4(surface_partner@_colour, 1.0);
 #else

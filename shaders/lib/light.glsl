@@ -24,12 +24,17 @@ vec3 towards_camera(vec3 position) {
     return normalize(camera_position - position);
 }
 
-// Everything that the surface's colour is multiplied with.
-vec3 diffuse_light(vec3 n, vec3 v) {
+// What arrives at a surface in the open.
+vec3 open_light(vec3 n) {
     vec3 light = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
     light += key_light * max((dot(n, key_direction) + wrap) / (1.0 + wrap), 0.0);
     float fill = 0.5 + 0.5 * dot(n, fill_direction);
-    light += fill_light * (fill * fill);
+    return light + fill_light * (fill * fill);
+}
+
+// Everything that the surface's colour is multiplied with.
+vec3 diffuse_light(vec3 n, vec3 v) {
+    vec3 light = open_light(n);
     // Lids keep light from the rim of an eyeball, most from its top.
     light *= 1.0 - recess * (1.0 - smoothstep(0.30, 0.95, n.z - 0.55 * n.y));
     // A rim that took the light's own colour would lie like dust on dark hair and skin.

@@ -8,16 +8,17 @@ from .lash_pictures import brow_picture, lash_picture
 from .landmarks import find_landmarks
 from .mouth_textures import gum_picture, teeth_picture, tongue_picture
 from .pack import write_shapes
+from .parts_eyes_picture import eye_picture
 from .people import PEOPLE, Person
 from .recipes import EXPRESSIONS
 from .regions import build_regions
-from .small_textures import eye_picture
 from .source import Source
 from .textures import Painter
 from .write import layout_text, write_mtl, write_obj, write_toml
 
 SKIN_SIZE = 2048
 JPEG_QUALITY = 90
+EYE_QUALITY = 90
 
 
 class Bakery:
@@ -48,7 +49,8 @@ class Bakery:
 
     def _pictures(self, person: Person, body: Body, folder: Path):
         self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
-        eye_picture(person.look.iris).save(folder / "eye.png", optimize=True)
+        eye = eye_picture(person.look)
+        eye.save(folder / "eye.jpg", quality=EYE_QUALITY, subsampling=0, optimize=True)
         for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):
             paint(person.look).save(folder / f"{name}.jpg", quality=JPEG_QUALITY, optimize=True)
         for name, paint in (("hair", hair_picture), ("brow", brow_picture), ("lash", lash_picture)):

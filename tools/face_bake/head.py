@@ -11,7 +11,10 @@ from .lashes import LashesPart
 from .mouth_fit import MouthFit
 from .mouth_room import MouthRoom
 from .parts import Group, Part, Posed, stacked
-from .parts_eyes import EYE_VERTICES, Eye, push_out
+from .parts_eyes import Eye
+from .parts_eyes_ball import EYE_VERTICES, Eyeballs, LookUnits
+from .parts_eyes_rings import LidRings
+from .parts_eyes_wet import Caruncles, Tears
 from .parts_skin import SkinPart
 from .parts_teeth import Teeth
 from .parts_tongue import Tongue
@@ -36,6 +39,7 @@ class Head:
         self.cage = build_cage(base)
         self.fine = build_fine_mesh(base, self.cage)
         self.seal = LipSeal(self.cage, base.points)
+        self.look_units, self.lids = LookUnits(source), LidRings(self.cage, base)
         self.skin = self._adapt()
         self.lashes = LashesPart.of(base)
         self.parts = self._make_parts()
@@ -45,7 +49,7 @@ class Head:
     def _adapt(self) -> AdaptiveMesh:
         """Refine where the base head's own expressions bend; the same faces for everybody."""
         everyone = Phenotype(descent={"african": 1, "asian": 1, "caucasian": 1})
-        shaper = Shaper(self.source, Person("", "", "", everyone, None), self.seal)
+        shaper = Shaper(self.source, Person("", "", "", everyone, None), self.seal, self.lids)
         shapes = [shaper.shape(recipe) for recipe in EXPRESSIONS.values()]
         score = rank_faces(self.fine, shapes, self.source.base.points)
         return build_adaptive_mesh(self.fine, choose_faces(self.fine, score, SKIN_VERTICES))
@@ -56,6 +60,8 @@ class Head:
             SkinPart(self.skin, self.fine),
             Eye(0),
             Eye(1),
+            Tears(self.cage, self.lids, self.source.base),
+            Caruncles(self.cage, self.lids, self.source.base),
             Teeth(upper=True),
             Teeth(upper=False),
             Tongue(),
@@ -73,8 +79,9 @@ class Body:
 
     def __init__(self, head: Head, person: Person):
         self.head, self.person = head, person
-        self.shaper = Shaper(head.source, person, head.seal)
+        self.shaper = Shaper(head.source, person, head.seal, head.lids)
         self.neutral, fine = self.shaper.neutral, head.fine
+        self.eyes = Eyeballs(head.look_units, self.neutral)
         self._rest = fine.operator @ self.neutral
         self.mouth = MouthFit(fine, head.seal, self._rest, self.neutral)
         self._mouth_room = MouthRoom(fine, head.seal, self._rest, self.mouth)
@@ -87,7 +94,7 @@ class Body:
     def fine_skin(self, shape: np.ndarray) -> np.ndarray:
         """All fine skin vertices in base-mesh space."""
         points = self.head.fine.operator @ shape
-        points = push_out(points, self._rest, self.head.fine.on_head, shape, self.neutral)
+        points = self.eyes.push_out(points, self._rest, self.head.fine.on_head, shape)
         return self._mouth_room.clear(points, shape, self.neutral)
 
     def solids(self, shape: np.ndarray, names: tuple[str, ...]) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -21,13 +21,15 @@ REST_OF_MEN = {
 
 @dataclass(frozen=True)
 class Look:
-    """Everything the textures need to know."""
+    """Everything the textures need to know; iris_ring is the iris's colour around the pupil."""
 
     skin: tuple
     lips: tuple
     hair: tuple
     brow: tuple
     iris: tuple
+    iris_ring: tuple
+    iris_seed: int
     hair_style: str = "side part"
     feminine: bool = False
     hair_strength: float = 0.97
@@ -69,7 +71,9 @@ ADA = Person(
         lips=(0.78, 0.42, 0.40),
         hair=(0.26, 0.15, 0.09),
         brow=(0.25, 0.15, 0.10),
-        iris=(0.28, 0.42, 0.50),
+        iris=(0.39, 0.46, 0.505),
+        iris_ring=(0.47, 0.44, 0.35),
+        iris_seed=11,
         hair_style="side part",
         feminine=True,
         brow_thickness=0.85,
@@ -99,7 +103,9 @@ BEN = Person(
         lips=(0.70, 0.42, 0.39),
         hair=(0.17, 0.11, 0.08),
         brow=(0.17, 0.11, 0.08),
-        iris=(0.33, 0.25, 0.14),
+        iris=(0.34, 0.315, 0.215),
+        iris_ring=(0.43, 0.29, 0.14),
+        iris_seed=12,
         hair_style="quiff",
         brow_thickness=1.15,
         brow_density=1.1,
@@ -128,7 +134,9 @@ MEI = Person(
         lips=(0.76, 0.42, 0.40),
         hair=(0.06, 0.05, 0.05),
         brow=(0.10, 0.07, 0.06),
-        iris=(0.20, 0.11, 0.06),
+        iris=(0.22, 0.125, 0.07),
+        iris_ring=(0.31, 0.17, 0.085),
+        iris_seed=13,
         hair_style="fringe bob",
         feminine=True,
         brow_thickness=0.8,
@@ -149,7 +157,9 @@ KOFI = Person(
         lips=(0.44, 0.25, 0.22),
         hair=(0.05, 0.04, 0.035),
         brow=(0.05, 0.035, 0.03),
-        iris=(0.14, 0.08, 0.05),
+        iris=(0.165, 0.095, 0.06),
+        iris_ring=(0.23, 0.125, 0.065),
+        iris_seed=14,
         hair_style="fade",
         hair_strength=0.93,
         gum_pigment=0.75,
@@ -174,7 +184,9 @@ ZOLA = Person(
         lips=(0.55, 0.28, 0.27),
         hair=(0.055, 0.04, 0.035),
         brow=(0.06, 0.04, 0.03),
-        iris=(0.16, 0.09, 0.05),
+        iris=(0.19, 0.105, 0.06),
+        iris_ring=(0.28, 0.155, 0.075),
+        iris_seed=15,
         hair_style="afro",
         feminine=True,
         brow_thickness=0.85,
@@ -197,7 +209,9 @@ OMAR = Person(
         lips=(0.62, 0.36, 0.33),
         hair=(0.42, 0.40, 0.39),
         brow=(0.24, 0.22, 0.21),
-        iris=(0.22, 0.14, 0.08),
+        iris=(0.27, 0.19, 0.115),
+        iris_ring=(0.36, 0.235, 0.12),
+        iris_seed=16,
         hair_style="receding",
         brow_thickness=1.2,
         lash_length=0.75,

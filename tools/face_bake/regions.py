@@ -14,7 +14,15 @@ SPOTS = {
     "mouth": [(0.0, 6.61, 0.34, 0.15), (0.26, 6.62, 0.14, 0.17)],
     "jaw": [(0.0, 6.22, 0.40, 0.19), (0.48, 6.40, 0.22, 0.24), (0.68, 6.62, 0.14, 0.28)],
 }
-PARTS = {"eye_L": "eyes", "eye_R": "eyes", "teeth_lower": "jaw", "tongue": "jaw", "lashes": "eyes"}
+PARTS = {
+    "eye_L": "eyes",
+    "eye_R": "eyes",
+    "tears": "eyes",
+    "caruncles": "eyes",
+    "teeth_lower": "jaw",
+    "tongue": "jaw",
+    "lashes": "eyes",
+}
 FULL = 255
 # Higher powers of the claims make narrower borders.
 SHARPNESS = 1.5

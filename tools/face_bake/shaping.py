@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from .parts_eyes_lids import BLINK, BLINK_SIDES, BlinkFit
+from .parts_eyes_rings import LidRings
 from .people import Person
 from .phenotype import body_offsets
 from .seal import LipSeal
@@ -11,21 +13,28 @@ from .source import Source
 class Shaper:
     """Shapes of one person in base-mesh space (19158, 3), in decimetres."""
 
-    def __init__(self, source: Source, person: Person, seal: LipSeal):
-        self._source = source
+    def __init__(self, source: Source, person: Person, seal: LipSeal, lids: LidRings):
+        self._source, self._blink = source, None
         self._descent = person.body.descent_weights()
         offsets = body_offsets(source, person.body)
         for name, weight in person.details.items():
             offsets = offsets + weight * self._detail(name)
         offsets = offsets + self.offsets(person.rest)
-        self.neutral = seal.close(source.base.points + offsets)
+        self.neutral = lids.thickened(seal.close(source.base.points + offsets))
+        self._blink = BlinkFit(source)
 
     def offsets(self, recipe: dict) -> np.ndarray:
-        """Sum of a recipe's units, see recipes.py."""
+        """Sum of a recipe's units, see recipes.py; a blink closes what the others leave open."""
         total = np.zeros_like(self._source.base.points)
+        blinks = np.zeros(2)
         for term, weight in recipe.items():
             kind, name = term.split(":", 1)
-            total += weight * (self._source.arkit(name) if kind == "arkit" else self._unit(name))
+            if self._blink is not None and name.startswith(BLINK):
+                blinks += weight * np.array([side.startswith(name) for side in BLINK_SIDES])
+            else:
+                total += weight * (self._source.arkit(name) if kind == "arkit" else self._unit(name))
+        if blinks.any():
+            total += self._blink.offsets(blinks, self.neutral + total)
         return total
 
     def shape(self, recipe: dict) -> np.ndarray:

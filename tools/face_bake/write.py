@@ -15,7 +15,9 @@ LICENCE = "CC0-1.0"
 MATERIALS = {
     "skin": ((1, 1, 1), 0.16, 18, "skin.jpg"),
     "mouth": ((1, 1, 1), 0.16, 18, "skin.jpg"),
-    "eye": ((1, 1, 1), 0.9, 180, "eye.png"),
+    "eye": ((1, 1, 1), 0.9, 180, "eye.jpg"),
+    "tear": ((0.80, 0.74, 0.70), 0.9, 250, None),
+    "caruncle": ((0.40, 0.155, 0.135), 0.5, 60, None),
     "teeth": ((1, 1, 1), 0.5, 60, "teeth.jpg"),
     "gum": ((1, 1, 1), 0.35, 50, "gum.jpg"),
     "tongue": ((1, 1, 1), 0.3, 30, "tongue.jpg"),
@@ -25,6 +27,9 @@ MATERIALS = {
 }
 # These have a colour of each person's own; their pictures' opacity lets through what lies behind them.
 SEE_THROUGH = ("lash", "brow", "hair")
+
+# Of materials that let light through.
+OPACITY = {"tear": 0.3}
 
 
 def layout_text(head: Head, *, textured: bool) -> str:
@@ -70,6 +75,7 @@ def write_mtl(path: Path, look: Look):
         lines += [f"newmtl {name}", f"Kd {diffuse}", f"Ks {specular}", f"Ns {exponent}", "illum 2"]
         # Not quite opaque: readers of OBJ then draw it last, blended over what lies behind it.
         lines += ["d 0.995"] if name in SEE_THROUGH else []
+        lines += [f"d {OPACITY[name]:g}"] if name in OPACITY else []
         lines += [f"map_Kd {picture}"] if picture else []
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 

@@ -40,8 +40,26 @@ class Finish:
 
 SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6, matte=0.045)
 EYE = Finish(
-    wrap=(0.30, 0.28, 0.28), gloss=5.0, sharpness=520.0, sheen=0.0, recess=0.75, shade=0.9, catches=True
+    wrap=(0.30, 0.28, 0.28),
+    gloss=5.0,
+    sharpness=520.0,
+    sheen=0.0,
+    recess=0.75,
+    shade=0.9,
+    catches=True,
+    shader="eye.frag",
+    by_pixel=True,
 )
+TEAR = Finish(
+    wrap=(0.30, 0.28, 0.28),
+    gloss=4.0,
+    sharpness=200.0,
+    sheen=0.0,
+    catches=True,
+    shader="tear.frag",
+    by_pixel=True,
+)
+CARUNCLE = Finish(wrap=(0.42, 0.24, 0.20), gloss=0.35, sharpness=60.0, sheen=0.0)
 TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.20, sharpness=60.0, sheen=0.0, shade=0.74)
 TONGUE = Finish(wrap=(0.40, 0.20, 0.17), gloss=0.10, sharpness=36.0, sheen=0.0, shade=0.7)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
@@ -59,6 +77,8 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("tooth", TEETH),
     ("tongue", TONGUE),
     ("gum", TONGUE),
+    ("tear", TEAR),
+    ("caruncle", CARUNCLE),
     ("eye", EYE),
     ("cornea", EYE),
     ("sclera", EYE),

@@ -1,0 +1,54 @@
+"""How far the upper lids travel in a blink: just to the lower lids, whoever's eye it is.
+
+MakeHuman's blink moves every lid by the same offsets, 12 mm at its middle, and nobody's eye is open so
+far. Here the offsets are scaled along the lid until the edges meet, so that half a blink is half closed.
+"""
+
+import numpy as np
+
+from .parts_eyes_ball import EYE_VERTICES, fit_sphere
+from .source import BaseMesh, Source
+from .strips import grid_of
+
+BLINK, BLINK_SIDES = "eyeBlink", ("eyeBlinkLeft", "eyeBlinkRight")
+LASH_STRIPS = {"upper": "helper-{side}-eyelashes-2", "lower": "helper-{side}-eyelashes-1"}
+# The closed upper lid laps over the lower one by so much, in decimetres.
+OVERLAP = 0.006
+# Beyond these the offsets would not be a blink any more.
+LEAST, MOST = 0.2, 1.4
+
+
+def lid_rows(base: BaseMesh, side: int) -> tuple[np.ndarray, np.ndarray]:
+    """Base-mesh vertices along the edges of the upper and of the lower lid, where the lashes grow."""
+    centre = base.points[EYE_VERTICES[side]].mean(0)
+    rows = []
+    for name in LASH_STRIPS.values():
+        grid = grid_of(base.faces[name.format(side="lr"[side])])
+        reach = np.linalg.norm(base.points[grid] - centre, axis=-1).mean(1)
+        row = grid[0] if reach[0] < reach[-1] else grid[-1]
+        rows.append(row[np.argsort(base.points[row, 0])])
+    return rows[0], rows[1]
+
+
+class BlinkFit:
+    """Blinks that close any shape of any person's lids."""
+
+    def __init__(self, source: Source):
+        self._moves = [source.arkit(name) for name in BLINK_SIDES]
+        self._rows = [lid_rows(source.base, side) for side in (0, 1)]
+
+    def offsets(self, weights: np.ndarray, start: np.ndarray) -> np.ndarray:
+        """Offsets (19158, 3) of both sides' blinks, from a shape (19158, 3) with whatever else moves it."""
+        return sum(weights[side] * self._fitted(side, start) for side in (0, 1) if weights[side])
+
+    def _fitted(self, side: int, start: np.ndarray) -> np.ndarray:
+        """The blink's offsets, scaled by a cubic along the lid: what closes it at each place."""
+        upper, lower = self._rows[side]
+        edge, drop = start[upper], -self._moves[side][upper, 1]
+        floor = np.interp(edge[:, 0], start[lower, 0], start[lower, 1])
+        share = (edge[:, 1] - floor + OVERLAP) / np.maximum(drop, 1e-4)
+        centre = fit_sphere(start[EYE_VERTICES[side]])[0][0]
+        half = np.abs(edge[:, 0] - centre).max()
+        curve = np.polyfit((edge[:, 0] - centre) / half, share, 3, w=drop)
+        place = np.clip((start[:, 0] - centre) / half, -1, 1)
+        return self._moves[side] * np.clip(np.polyval(curve, place), LEAST, MOST)[:, None]

@@ -5,6 +5,7 @@ import numpy as np
 from .adapt import AdaptiveMesh, build_adaptive_mesh, choose_faces, rank_faces
 from .brows import BrowsPart
 from .cage import build_cage
+from .fields_face import FIELDS
 from .finemesh import build_fine_mesh
 from .hair_part import HairPart
 from .lashes import LashesPart
@@ -21,6 +22,7 @@ from .parts_tongue import Tongue
 from .people import Person
 from .phenotype import Phenotype
 from .recipes import EXPRESSIONS
+from .sculpt import Sculptor
 from .seal import LipSeal
 from .shaping import Shaper
 from .source import Source
@@ -39,6 +41,7 @@ class Head:
         self.cage = build_cage(base)
         self.fine = build_fine_mesh(base, self.cage)
         self.seal = LipSeal(self.cage, base.points)
+        self.sculptor = Sculptor(self.cage, base.points, FIELDS)
         self.look_units, self.lids = LookUnits(source), LidRings(self.cage, base)
         self.skin = self._adapt()
         self.lashes = LashesPart.of(base)
@@ -49,7 +52,7 @@ class Head:
     def _adapt(self) -> AdaptiveMesh:
         """Refine where the base head's own expressions bend; the same faces for everybody."""
         everyone = Phenotype(descent={"african": 1, "asian": 1, "caucasian": 1})
-        shaper = Shaper(self.source, Person("", "", "", everyone, None), self.seal, self.lids)
+        shaper = Shaper(self.source, Person("", "", "", everyone, None), self.seal, self.sculptor, self.lids)
         shapes = [shaper.shape(recipe) for recipe in EXPRESSIONS.values()]
         score = rank_faces(self.fine, shapes, self.source.base.points)
         return build_adaptive_mesh(self.fine, choose_faces(self.fine, score, SKIN_VERTICES))
@@ -79,7 +82,7 @@ class Body:
 
     def __init__(self, head: Head, person: Person):
         self.head, self.person = head, person
-        self.shaper = Shaper(head.source, person, head.seal, head.lids)
+        self.shaper = Shaper(head.source, person, head.seal, head.sculptor, head.lids)
         self.neutral, fine = self.shaper.neutral, head.fine
         self.eyes = Eyeballs(head.look_units, self.neutral)
         self._rest = fine.operator @ self.neutral

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .head import Body
-from .recipes import FACS, arkit_label
+from .recipes import FACS, arkit_label, arkit_recipe
 
 FORMAT = 1
 # Offsets shorter than this (cm) are left out.
@@ -17,7 +17,7 @@ FINEST_STEP = 0.0002
 def units(arkit_names: list[str]) -> list[tuple[str, str, str, dict]]:
     """Name, label, set and recipe of every unit, FACS first."""
     facs = [(name, label, "facs", recipe) for name, (label, recipe) in FACS.items()]
-    return facs + [(name, arkit_label(name), "arkit", {f"arkit:{name}": 1.0}) for name in arkit_names]
+    return facs + [(name, arkit_label(name), "arkit", arkit_recipe(name)) for name in arkit_names]
 
 
 def quantise(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:

@@ -88,7 +88,10 @@ ADA = Person(
         "nose/nose-hump-decr": 0.3,
         "head/head-oval": 0.4,
         "mouth/mouth-angles-up": 0.25,
-        "nose/nose-point-up": 0.3,
+        "nose/nose-point-up": 0.15,
+        "chin/chin-height-incr": 0.18,
+        "chin/chin-triangle": 0.3,
+        "forehead/forehead-scale-vert-decr": 0.2,
     },
 )
 BEN = Person(
@@ -145,7 +148,13 @@ MEI = Person(
         lash_density=0.9,
         brow_arch=0.004,
     ),
-    {"mouth/mouth-angles-up": 0.25, "head/head-oval": 0.3, "mouth/mouth-upperlip-volume-incr": 0.3},
+    {
+        "mouth/mouth-angles-up": 0.25,
+        "head/head-oval": 0.3,
+        "mouth/mouth-upperlip-volume-incr": 0.3,
+        "chin/chin-height-incr": 0.2,
+        "forehead/forehead-scale-vert-decr": 0.15,
+    },
 )
 KOFI = Person(
     "kofi",
@@ -197,7 +206,11 @@ ZOLA = Person(
         gum_pigment=0.55,
         lid=(0.88, 0.82, 0.80),
     ),
-    {"mouth/mouth-angles-up": 0.25},
+    {
+        "mouth/mouth-angles-up": 0.25,
+        "chin/chin-height-incr": 0.2,
+        "forehead/forehead-scale-vert-decr": 0.15,
+    },
 )
 OMAR = Person(
     "omar",

@@ -6,6 +6,7 @@ from .parts_eyes_lids import BLINK, BLINK_SIDES, BlinkFit
 from .parts_eyes_rings import LidRings
 from .people import Person
 from .phenotype import body_offsets
+from .sculpt import Sculptor
 from .seal import LipSeal
 from .source import Source
 
@@ -13,8 +14,8 @@ from .source import Source
 class Shaper:
     """Shapes of one person in base-mesh space (19158, 3), in decimetres."""
 
-    def __init__(self, source: Source, person: Person, seal: LipSeal, lids: LidRings):
-        self._source, self._blink = source, None
+    def __init__(self, source: Source, person: Person, seal: LipSeal, sculptor: Sculptor, lids: LidRings):
+        self._source, self._sculptor, self._blink = source, sculptor, None
         self._descent = person.body.descent_weights()
         offsets = body_offsets(source, person.body)
         for name, weight in person.details.items():
@@ -32,13 +33,18 @@ class Shaper:
             if self._blink is not None and name.startswith(BLINK):
                 blinks += weight * np.array([side.startswith(name) for side in BLINK_SIDES])
             else:
-                total += weight * (self._source.arkit(name) if kind == "arkit" else self._unit(name))
+                total += weight * self._term(kind, name)
         if blinks.any():
             total += self._blink.offsets(blinks, self.neutral + total)
         return total
 
     def shape(self, recipe: dict) -> np.ndarray:
         return self.neutral + self.offsets(recipe)
+
+    def _term(self, kind: str, name: str) -> np.ndarray:
+        if kind == "sculpt":
+            return self._sculptor.field(name)
+        return self._sculptor.soften(self._source.arkit(name) if kind == "arkit" else self._unit(name))
 
     def _detail(self, name: str) -> np.ndarray:
         if self._source.has_target(name):

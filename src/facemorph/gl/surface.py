@@ -184,7 +184,7 @@ class Surface:
     def texture_paths(self) -> set[Path]:
         """The textures that its materials, and its partners', name."""
         materials = [material for part in self.parts for material in (part.material, *part.partners)]
-        return {material.texture for material in materials if material.texture is not None}
+        return {path for material in materials for path in material.pictures}
 
     def polygon_edges(self) -> moderngl.Texture:
         """For each triangle in drawing order, which of its edges belong to a polygon: bits 1, 2 and 4."""

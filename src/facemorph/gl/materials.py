@@ -24,6 +24,7 @@ class Finish:
     matte      luminance of the colour below which nothing shines: hair and brows painted on skin
     shader     the fragment shader that draws it
     by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
+    relief     whether it is skin, with bumps and wrinkles: by pixel but while something moves
     """
 
     wrap: Colour
@@ -36,9 +37,12 @@ class Finish:
     catches: bool = False
     shader: str = "lit.frag"
     by_pixel: bool = False
+    relief: bool = False
 
 
-SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6, matte=0.045)
+SKIN = Finish(
+    wrap=(0.34, 0.17, 0.11), gloss=1.0, sharpness=26.0, sheen=1.0, matte=0.045, shader="skin.frag", relief=True
+)
 EYE = Finish(
     wrap=(0.30, 0.28, 0.28),
     gloss=5.0,

@@ -17,11 +17,13 @@ from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.gl.backdrop import Backdrop
 from facemorph.gl.colours import FIRST_PARTNER_UNIT, OWN_UNIT, Source, blended_opacity, source_of
+from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
 from facemorph.gl.lights import Lights
 from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
+from facemorph.gl.skin_maps import skin_maps
 from facemorph.gl.surface import Part, Surface
 from facemorph.gl.textures import Textures
 
@@ -47,10 +49,11 @@ class Painter:
         self._lights = lights
         self._software = software
         self.textures = Textures(ctx, software=software)
+        self._exposures = Exposures(self.textures)
         self._backdrop = Backdrop(ctx, programs)
         self._ramp: moderngl.Texture | None = None
         self._assigned: set[int] = set()
-        self._glowing = False
+        self._glowing = self._hurried = False
         self._shares: tuple[float, ...] = (1.0,)
 
     def paint(
@@ -74,9 +77,11 @@ class Painter:
         face      what the drivers tell shaders of the face in its pose
         hurried   whether insides that are hidden may be left out
         """
-        self._glowing = glowing
+        self._glowing, self._hurried = glowing, hurried
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
         scene = {**self._scene(camera, look, size), **face}
+        if look.shading == "skin":
+            scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
@@ -252,6 +257,10 @@ class Painter:
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
         fine = surface.mesh.vertex_count >= FINE_MESH and not finish.by_pixel
         by_vertex = self._software and fine and scene["side"] == _OUTSIDE
+        if finish.relief:
+            by_vertex = by_vertex and self._hurried
+            maps = skin_maps(part.material, surface.mesh, source, self.textures, scene)
+            define, own = [*define, *maps.defines], own | maps.uniforms
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
         self._draw(surface, part, scene, finish.shader, [*lit, *define], own)
 

@@ -18,6 +18,7 @@ from facemorph.core.mesh import Material, Mesh
 from facemorph.core.normals import vertex_normals
 from facemorph.core.split import split_vertices
 from facemorph.core.triangles import Triangles, triangulated
+from facemorph.gl.bends import bends
 from facemorph.gl.counterpart import counterparts
 from facemorph.gl.hem import Hem, hem_of
 from facemorph.gl.insides import Insides
@@ -35,6 +36,7 @@ _FORMS = {
     "reference": "3f",
     "glow": "1f",
     "kept": "1f",
+    "bend": "1f",
 }
 _OF_PARTNER = re.compile(r"partner(\d+)_(uv|colour)")
 
@@ -168,6 +170,8 @@ class Surface:
         if name == "kept":
             kept = self.hem.kept if self.hem else np.ones(self.mesh.vertex_count, np.float32)
             return kept[self.position_of]
+        if name == "bend":
+            return bends(self.mesh.positions, self.triangles.vertices)[self.position_of]
         whose, kind = self.mesh, name
         of_partner = _OF_PARTNER.match(name)
         if of_partner:

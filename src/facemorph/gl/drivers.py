@@ -12,6 +12,7 @@ from typing import Protocol
 from facemorph.core.arrays import Float32, Float64
 from facemorph.core.rig import Rig
 from facemorph.gl.eyes import eyes_of
+from facemorph.gl.mouth_driver import MouthOpening
 
 
 class Driver(Protocol):
@@ -23,7 +24,7 @@ class Driver(Protocol):
 
 def drivers_of(rig: Rig) -> tuple[Driver, ...]:
     """Those that the rig has all that they need for."""
-    makers: tuple[Callable[[Rig], Driver | None], ...] = (eyes_of,)
+    makers: tuple[Callable[[Rig], Driver | None], ...] = (eyes_of, MouthOpening)
     return tuple(driver for driver in (make(rig) for make in makers) if driver is not None)
 
 

@@ -23,7 +23,7 @@ out vec3 surface_position;              // the model's space
 #endif
 #endif
 
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(STENCILLED)
 in vec2 uv;
 out vec2 surface_uv;
 #endif
@@ -74,7 +74,7 @@ void main() {
     surface_position = position;
 #endif
 #endif
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(STENCILLED)
     surface_uv = uv;
 #endif
 #ifdef COLOURED

@@ -247,6 +247,7 @@ class Painter:
             "sheen": finish.sheen,
             "recess": finish.recess,
             "matte": finish.matte,
+            "spill": finish.spill,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
         if partners:

@@ -27,7 +27,7 @@ MOUTH = {
             (0.55, 6.45): (0.0, 0.01, 0.0),
             (0.0, 6.92): (0, -0.004, -0.004),
         },
-        folds=(Fold(NASOLABIAL, 0.026, 0.07),),
+        folds=(Fold(NASOLABIAL, 0.022, 0.07),),
     ),
     # Levator labii superioris: the upper lip up, most beside the middle.
     "upper": Field(
@@ -139,9 +139,9 @@ MOUTH = {
     ),
     # A slack open mouth is an oval: its corners come in and its upper lip lifts off the teeth's edge.
     "oval": Field(
-        corner=(-0.034, 0.002, 0.022),
-        upper={0.0: (0, 0.024, 0.008), 0.5: (-0.012, 0.026, 0.010), 0.85: (-0.026, 0.024, 0.018)},
-        lower={0.0: (0, 0.0, 0.0), 0.5: (-0.008, -0.010, 0.006), 0.85: (-0.022, -0.030, 0.016)},
+        corner=(-0.038, 0.002, 0.022),
+        upper={0.0: (0, 0.022, 0.008), 0.5: (-0.013, 0.024, 0.010), 0.85: (-0.029, 0.022, 0.018)},
+        lower={0.0: (0, 0.014, 0.006), 0.5: (-0.010, 0.002, 0.009), 0.85: (-0.026, -0.024, 0.016)},
         skin=CHIN_STILL
         | {
             (0.0, 6.80): (0, 0.008, 0),

@@ -40,7 +40,7 @@ out float surface_bend;
 #endif
 #endif
 
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(STENCILLED)
 in vec2 uv;
 out vec2 surface_uv;
 #endif
@@ -106,7 +106,7 @@ void main() {
     surface_wrinkles = set_weights(uv);
 #endif
 #endif
-#ifdef TEXTURED
+#if defined(TEXTURED) || defined(STENCILLED)
     surface_uv = uv;
 #endif
 #ifdef COLOURED

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from .hair_atlas import hair_picture
 from .head import Body, Head
-from .lash_pictures import brow_picture, lash_picture
 from .landmarks import find_landmarks
+from .lash_pictures import brow_picture, lash_picture
 from .mouth_textures import gum_picture, teeth_picture, tongue_picture
 from .pack import write_shapes
 from .parts_eyes_picture import eye_picture

@@ -142,10 +142,8 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
         lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
         length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.85, 1.1, PLACES)
         tangent, half = curve.direction(u), curve.half_width(u)
-        root = (
-            np.stack(curve.at(u), -1)
-            + np.stack([-tangent[:, 1], tangent[:, 0]], -1) * (half * across)[:, None]
-        )
+        normal = np.stack([-tangent[:, 1], tangent[:, 0]], -1)
+        root = np.stack(curve.at(u), -1) + normal * (half * across)[:, None]
         # The tail thins out: its last hairs must not reach past the brow's end.
         root = root - tangent * (0.6 * length * u**3)[:, None]
         turns = np.radians(lean[:, None] - np.array([0.0, 14.0]))

@@ -8,11 +8,11 @@ from .people import Look
 from .tooth_shapes import FRONT_AROUND, FRONT_COLUMNS
 
 TEETH = 14
-IVORY, ROOT, EDGE = np.array([0.93, 0.885, 0.79]), np.array([0.88, 0.78, 0.61]), np.array([0.84, 0.845, 0.83])
+IVORY, ROOT, EDGE = np.array([0.96, 0.91, 0.80]), np.array([0.90, 0.79, 0.61]), np.array([0.88, 0.875, 0.84])
 AGED = np.array([0.965, 0.93, 0.84])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])
 PIGMENT = np.array([0.62, 0.52, 0.50])
-TONGUE, TONGUE_TIP = np.array([0.74, 0.42, 0.41]), np.array([0.76, 0.36, 0.36])
+TONGUE, TONGUE_TIP = np.array([0.68, 0.38, 0.37]), np.array([0.69, 0.33, 0.33])
 
 
 def _picture(colours: np.ndarray) -> Image.Image:
@@ -37,7 +37,7 @@ def teeth_picture(look: Look, width: int = 896, height: int = 192) -> Image.Imag
     root, edge = smoothstep(0.42, -0.02, crown), smoothstep(0.70, 1.0, crown)
     front_tooth = smoothstep(4.6, 3.6, np.abs(tooth - 6.5))
     colours = IVORY * (1 - root[..., None]) + ROOT * root[..., None]
-    colours = _blend(colours, EDGE, 0.75 * edge * front_tooth)
+    colours = _blend(colours, EDGE, 0.65 * edge * front_tooth)
     # Canines are darker and warmer than incisors, and no tooth is quite like its neighbour.
     canine = np.isin(tooth, (4, 9))[..., None]
     own = noise(np.stack([tooth * 1.7, np.floor(v * 2) * 3.1, 0 * u], -1), 1)[..., None]

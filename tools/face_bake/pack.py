@@ -4,6 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
+from .correctives import SMALLEST as SMALLEST_CORRECTION
+from .correctives import correctives
 from .head import Body
 from .recipes import FACS, arkit_label, arkit_recipe
 
@@ -20,9 +22,9 @@ def units(arkit_names: list[str]) -> list[tuple[str, str, str, dict]]:
     return facs + [(name, arkit_label(name), "arkit", arkit_recipe(name)) for name in arkit_names]
 
 
-def quantise(offsets: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+def quantise(offsets: np.ndarray, smallest: float = SMALLEST) -> tuple[np.ndarray, np.ndarray, float]:
     """Moved vertices (n,), their offsets (n, 3) as int16, and the step in centimetres."""
-    moved = np.flatnonzero(np.linalg.norm(offsets, axis=1) >= SMALLEST)
+    moved = np.flatnonzero(np.linalg.norm(offsets, axis=1) >= smallest)
     largest = np.abs(offsets[moved]).max() if len(moved) else 0.0
     step = np.float32(max(largest / 32767, FINEST_STEP))
     return moved, np.round(offsets[moved] / step).astype(np.int16), step
@@ -33,6 +35,9 @@ def write_shapes(path: Path, body: Body, arkit_names: list[str], regions: dict):
     neutral = body.positions(body.shaper.neutral)
     listed = units(arkit_names)
     packed = [quantise(body.positions(body.shaper.shape(recipe)) - neutral) for *_, recipe in listed]
+    made = correctives(body, arkit_names)
+    listed += [(one.name, one.name, "corrective", {}) for one in made]
+    packed += [quantise(one.offsets, SMALLEST_CORRECTION) for one in made]
     counts = [len(index) for index, _, _ in packed]
     np.savez_compressed(
         path,

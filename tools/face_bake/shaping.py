@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .jaw import OPENING, Jaw
 from .parts_eyes_lids import BLINK, BLINK_SIDES, BlinkFit
 from .parts_eyes_rings import LidRings
 from .people import Person
@@ -23,6 +24,7 @@ class Shaper:
         offsets = offsets + self.offsets(person.rest)
         self.neutral = lids.thickened(seal.close(source.base.points + offsets))
         self._blink = BlinkFit(source)
+        self._jaw = Jaw(self.neutral, self._term("arkit", OPENING))
 
     def offsets(self, recipe: dict) -> np.ndarray:
         """Sum of a recipe's units, see recipes.py; a blink closes what the others leave open."""
@@ -39,7 +41,8 @@ class Shaper:
         return total
 
     def shape(self, recipe: dict) -> np.ndarray:
-        return self.neutral + self.offsets(recipe)
+        opening = recipe.get(f"arkit:{OPENING}", 0.0)
+        return self.neutral + self.offsets(recipe) + self._jaw.bend(opening)
 
     def _term(self, kind: str, name: str) -> np.ndarray:
         if kind == "sculpt":

@@ -11,7 +11,7 @@ from .paintkit import Noise, Plane, mix, smoothstep, tint
 from .people import Look
 
 RED = (1.02, 0.84, 0.81)
-LIP_LIGHT = 0.55
+LIP_LIGHT = 0.68
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .correctives import HALF_WAY, PAIRS
 from .hair_atlas import hair_material
 from .head import Head
 from .lash_pictures import brow_material, lash_material
@@ -80,6 +81,16 @@ def write_mtl(path: Path, look: Look):
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 
 
+def _rules() -> list[str]:
+    """Which shapes switch the correctives on."""
+    lines = []
+    for name in HALF_WAY:
+        lines += ["", "[[correctives]]", f'shape = "{name} half way"', f'hat = "{name}"']
+    for one, other in PAIRS:
+        lines += ["", "[[correctives]]", f'shape = "{one} and {other}"', f'product = ["{one}", "{other}"]']
+    return lines
+
+
 def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list):
     lines = [
         f'name = "{person.name}"',
@@ -102,4 +113,5 @@ def write_toml(path: Path, person: Person, expressions: list[str], landmarks: li
         lines += ["", "[[landmarks]]", f'name = "{landmark.name}"', f"vertex = {landmark.vertex}"]
         lines += [f'mpeg4 = "{landmark.mpeg4}"'] if landmark.mpeg4 else []
         lines += [f"ibug = {landmark.ibug}"] if landmark.ibug is not None else []
+    lines += _rules()
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")

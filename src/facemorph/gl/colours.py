@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 _WHITE: Colour = (1.0, 1.0, 1.0)
 # Texture units; 1 is the polygon edges', and from 2 on there is one for each partner.
 OWN_UNIT, FIRST_PARTNER_UNIT = 0, 2
+# Where colours are not shown, no partner is either.
+STENCIL_UNIT = FIRST_PARTNER_UNIT
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,17 +23,18 @@ class Hem:
     triangles: Bool
 
 
-def hem_of(mesh: Mesh, triangles: Int32) -> Hem | None:
+def hem_of(mesh: Mesh, triangles: Int32, apart: Bool | None = None) -> Hem | None:
     """The hem of `mesh`, or None where it has no open lower end.
 
-    A bust is open along edges of one triangle only, all of them in the lowest quarter of its height.
+    Triangles `apart` (T,) are no part of the bust: hair that hangs down to its shoulders. A bust is open along edges of one triangle only, all of them in the lowest quarter of its height.
     """
     low, high = (float(value) for value in mesh.bounds[:, 1])
     height = high - low
     if not len(triangles) or not height > 0.0:
         return None
     below = mesh.positions[:, 1] < low + LOW_PART * height
-    rim = _open_edges(triangles[below[triangles].any(axis=1)], below, mesh.vertex_count)
+    own = np.ones(len(triangles), bool) if apart is None else ~apart
+    rim = _open_edges(triangles[below[triangles].any(axis=1) & own], below, mesh.vertex_count)
     if not len(rim) or not below[rim].all():
         return None
     points = mesh.positions[np.unique(rim)]
@@ -42,7 +43,7 @@ def hem_of(mesh: Mesh, triangles: Int32) -> Hem | None:
     kept = np.ones(mesh.vertex_count, np.float32)
     near = np.flatnonzero(mesh.positions[:, 1] < float(points[:, 1].max()) + FADE * height)
     kept[near] = np.minimum(_distance_to(points, mesh.positions[near]) / (FADE * height), 1.0)
-    return Hem(kept, np.asarray((kept < 1.0)[triangles].any(axis=1)))
+    return Hem(kept, np.asarray((kept < 1.0)[triangles].any(axis=1) & own))
 
 
 def _distance_to(points: Float32, positions: Float32) -> Float32:

@@ -23,6 +23,7 @@ class Finish:
     shade      factor on the colour, for what lies inside the mouth
     matte      luminance of the colour below which nothing shines: hair and brows painted on skin
     shader     the fragment shader that draws it
+    spill      in a mouth, how far light reaches it over the lips' edge, in half widths of the mouth
     by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
     relief     whether it is skin, with bumps and wrinkles: by pixel but while something moves
     """
@@ -36,6 +37,7 @@ class Finish:
     matte: float = 0.0
     catches: bool = False
     shader: str = "lit.frag"
+    spill: float = 0.0
     by_pixel: bool = False
     relief: bool = False
 
@@ -64,8 +66,27 @@ TEAR = Finish(
     by_pixel=True,
 )
 CARUNCLE = Finish(wrap=(0.42, 0.24, 0.20), gloss=0.35, sharpness=60.0, sheen=0.0)
-TEETH = Finish(wrap=(0.30, 0.26, 0.22), gloss=0.20, sharpness=60.0, sheen=0.0, shade=0.74)
-TONGUE = Finish(wrap=(0.40, 0.20, 0.17), gloss=0.10, sharpness=36.0, sheen=0.0, shade=0.7)
+TEETH = Finish(
+    wrap=(0.60, 0.54, 0.47),
+    gloss=0.30,
+    sharpness=150.0,
+    sheen=0.0,
+    shade=1.08,
+    catches=True,
+    shader="mouth.frag",
+    by_pixel=True,
+)
+GUM = Finish(
+    wrap=(0.40, 0.22, 0.20),
+    gloss=0.22,
+    sharpness=70.0,
+    sheen=0.0,
+    catches=True,
+    shader="mouth.frag",
+    by_pixel=True,
+)
+TONGUE = replace(GUM, gloss=0.16, sharpness=34.0)
+MOUTH = replace(GUM, gloss=0.08, sharpness=30.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
 HAIR = Finish(
     wrap=(0.36, 0.30, 0.26), gloss=1.0, sharpness=70.0, sheen=0.9, shader="hair.frag", by_pixel=True
@@ -80,7 +101,9 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("teeth", TEETH),
     ("tooth", TEETH),
     ("tongue", TONGUE),
-    ("gum", TONGUE),
+    ("gum", GUM),
+    ("palate", GUM),
+    ("mouth", MOUTH),
     ("tear", TEAR),
     ("caruncle", CARUNCLE),
     ("eye", EYE),
@@ -105,6 +128,8 @@ _STAND_INS: Mapping[Finish, Colour] = MappingProxyType(
         EYE: (0.62, 0.60, 0.58),
         TEETH: (0.62, 0.56, 0.46),
         TONGUE: (0.32, 0.06, 0.055),
+        GUM: (0.40, 0.13, 0.12),
+        MOUTH: (0.26, 0.06, 0.055),
         LASH: (0.010, 0.008, 0.007),
         HAIR: (0.020, 0.013, 0.009),
     }

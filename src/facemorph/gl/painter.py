@@ -16,7 +16,14 @@ import numpy as np
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.gl.backdrop import Backdrop
-from facemorph.gl.colours import FIRST_PARTNER_UNIT, OWN_UNIT, Source, blended_opacity, source_of
+from facemorph.gl.colours import (
+    FIRST_PARTNER_UNIT,
+    OWN_UNIT,
+    STENCIL_UNIT,
+    Source,
+    blended_opacity,
+    source_of,
+)
 from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
@@ -115,6 +122,7 @@ class Painter:
             "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
             "ramp": 0,
             "albedo_texture": OWN_UNIT,
+            "stencil_texture": STENCIL_UNIT,
             "polygon_edges": 1,
             "own_share": self._shares[0],
             **{f"partner{i}_share": share for i, share in enumerate(self._shares[1:])},
@@ -193,14 +201,24 @@ class Painter:
 
     def _draw_part(self, surface: Surface, part: Part, look: Look, scene: Uniforms) -> None:
         if look.shading in ("clay", "wire"):
-            self._draw_lit(surface, part, scene, CLAY, Source(CLAY_COLOUR, 1.0))
+            self._draw_lit(
+                surface, part, scene, CLAY, Source(CLAY_COLOUR, 1.0), stencil=self._stencil(surface, part)
+            )
         elif look.shading == "normals":
-            self._draw(surface, part, scene, "normals.frag", [], {})
+            self._draw(surface, part, scene, "normals.frag", self._stencil(surface, part), {})
         elif look.shading == "heat":
             self._heat_ramp().use(0)
-            self._draw(surface, part, scene, "heat.frag", ["LIT", "HEAT"], {})
+            self._draw(surface, part, scene, "heat.frag", ["LIT", "HEAT", *self._stencil(surface, part)], {})
         else:
             self._draw_material(surface, part, scene)
+
+    def _stencil(self, surface: Surface, part: Part) -> list[str]:
+        """What shadings without the part's own colours need to leave out what its texture leaves out."""
+        own = source_of(part.material, surface.mesh, self.textures)
+        if own.texture is None or not own.cut_out:
+            return []
+        own.texture.use(STENCIL_UNIT)
+        return ["STENCILLED"]
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""
@@ -220,8 +238,9 @@ class Painter:
         finish: Finish,
         source: Source,
         partners: Sequence[Source] = (),
+        stencil: Sequence[str] = (),
     ) -> None:
-        define = source.defines()
+        define = [*source.defines(), *stencil]
         if source.texture is not None:
             source.texture.use(OWN_UNIT)
         own: dict[str, object] = {
@@ -233,6 +252,7 @@ class Painter:
             "sheen": finish.sheen,
             "recess": finish.recess,
             "matte": finish.matte,
+            "spill": finish.spill,
             "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
         }
         if partners:

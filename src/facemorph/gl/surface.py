@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Int32, Int64, UInt8
+from facemorph.core.arrays import Bool, Float32, Int32, Int64, UInt8
 from facemorph.core.mesh import Material, Mesh
 from facemorph.core.normals import vertex_normals
 from facemorph.core.split import split_vertices
@@ -75,10 +75,11 @@ class Surface:
         self._ctx = ctx
         self.mesh, self.partners = mesh, tuple(partners)
         self.triangles: Triangles = kin.triangles if kin else triangulated(mesh)
-        self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices)
         split, others = counterparts(mesh, self.triangles, split_vertices(mesh, self.triangles), partners)
         self._materials = [_materials(mesh, self.triangles.polygon)]
         self._materials += [_materials(other.mesh, other.polygon) for other in others]
+        self._clear = _see_through(*self._materials[0])
+        self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices, self._clear)
         self._partner_uvs = [other.uvs for other in others]
         self.position_of: Int32 = split.position_of
         self.drawn_count = len(split.position_of)
@@ -115,7 +116,8 @@ class Surface:
             return
         self._shell_sought = True
         positions, triangles = self.mesh.positions, self.triangles.vertices
-        shell = shell_of(positions, triangles, None if self.hem is None else self.hem.triangles)
+        apart = self._clear if self.hem is None else self._clear | self.hem.triangles
+        shell = shell_of(positions, triangles, apart)
         if shell is not None:
             self._arrange(shell)
             self.insides = Insides(self._ctx, positions, vertex_normals(positions, triangles))
@@ -242,8 +244,7 @@ def _parts(
     """
     own, of_triangle = materials[0]
     in_hem = np.zeros(len(of_triangle), bool) if hem is None else hem.triangles
-    see_through = np.array([material.opacity < 1.0 for material in own])
-    key = (see_through[of_triangle].astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
+    key = (_see_through(own, of_triangle).astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
     for known, of_partner in materials[1:]:
         # Numbered anew each time: products of many people's counts of materials would overflow.
         key = np.unique(key, return_inverse=True)[1] * len(known) + of_partner
@@ -258,6 +259,12 @@ def _parts(
         faded, closed = bool(in_hem[triangle]), bool(in_shell[triangle])
         parts.append(Part(material, start, number, faded, tuple(partners), closed))
     return tuple(parts), order
+
+
+def _see_through(materials: Sequence[Material], of_triangle: Int64) -> Bool:
+    """(T,) whether a triangle's material lets light through: hair, lashes, tears."""
+    clear = np.array([material.opacity < 1.0 for material in materials])
+    return np.asarray(clear[of_triangle])
 
 
 def _materials(mesh: Mesh, polygon: Int32) -> _OfTriangles:

@@ -1,0 +1,63 @@
+#version 330 core
+// Teeth, gums, tongue and the mouth's lining: wet, and lit by what comes in between the lips.
+#include "lib/surface.glsl"
+#include "lib/albedo.glsl"
+#include "lib/light.glsl"
+#include "lib/mouth_light.glsl"
+#ifdef GLOW
+#include "lib/glow.glsl"
+#endif
+
+in vec3 surface_view;
+in vec3 surface_position;
+
+uniform float spill;                   // how far light from the lips' edge spills onto it, in the mouth's size
+
+const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
+
+// How near the lips' edge a place is: 1 on it, 0 from `spill` on.
+float beside_lips(vec3 position) {
+    float nearest = 1e9;
+    vec3 from = aperture[APERTURE - 1];
+    for (int i = 0; i < APERTURE; ++i) {
+        vec3 along = aperture[i] - from;
+        vec3 way = position - from;
+        vec3 off = way - along * clamp(dot(way, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+        nearest = min(nearest, dot(off, off));
+        from = aperture[i];
+    }
+    return 1.0 - smoothstep(0.3 * spill, spill, sqrt(nearest) / aperture_size);
+}
+
+vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
+    vec2 reached = mouth_light(surface_position, n, key_direction);
+    if (spill > 0.0) {
+        reached = mix(reached, vec2(1.0), beside_lips(surface_position));
+    }
+    vec3 around = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
+    float fill = 0.5 + 0.5 * dot(n, fill_direction);
+    around += fill_light * (fill * fill);
+    vec3 key = key_light * max((dot(n, key_direction) + wrap) / (1.0 + wrap), 0.0);
+    // The key is a wide lamp: half of it comes in wherever the surface sees the opening.
+    float keyed = mix(reached.x, reached.y, 0.5) * min(2.0 * reached.x, 1.0);
+    vec3 light = around * reached.x + key * keyed;
+    light *= mix(FLESH, vec3(1.0), smoothstep(0.0, 0.75, reached.x));
+    vec3 shine = highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.08, 0.5, reached.x);
+    // Wet: what comes in at the opening mirrors at grazing angles.
+    float edge = 1.0 - max(dot(n, view), 0.0);
+    float mirrored = edge * edge * edge * edge * gloss * reached.x;
+    return paint * light + shine + sky_light * mirrored;
+}
+
+void main() {
+    vec4 paint = painted();
+    vec3 n = normalize(surface_normal);
+    vec3 view = normalize(surface_view);
+    vec3 seen = aperture_size > 0.0
+        ? lit_inside(paint.rgb, n, view)
+        : paint.rgb * diffuse_light(n, view) + highlight(paint.rgb, n, normalize(shine_direction + view));
+#ifdef GLOW
+    seen = lit_up(seen);
+#endif
+    show(displayed(seen), paint.a);
+}

@@ -1,0 +1,95 @@
+"""Shapes that others switch on, where the straight way between two shapes leaves what the bake makes.
+
+The bake turns eyeballs, swings the jaw and keeps lids outside the ball; files hold straight ways. What is
+missing half way becomes a shape with a hat over one weight; what is missing where two shapes are on
+together becomes a shape with the product of their weights.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .head import Body
+from .recipes import EXPRESSIONS, FACS, arkit_recipe
+
+# Those of which one of the six people misses more than half a millimetre half way, or where two are on.
+# The tongue comes out on no arc: a hat would not help it.
+EYES_BOTH_SIDES = ("eyeBlink", "eyeLookDown", "eyeLookIn", "eyeSquint")
+SIDES = ("Left", "Right")
+HALF_WAY = (
+    *("happy", "angry", "surprised", "afraid"),
+    *(f"AU{number}" for number in (7, 12, 13, 17, 18, 22, 26, 27, 28, 29, 30, 43, 61, 62, 64)),
+    *(f"{name}{side}" for name in EYES_BOTH_SIDES for side in SIDES),
+    *(
+        "jawForward",
+        "jawLeft",
+        "jawOpen",
+        "jawRight",
+        "mouthClose",
+        "mouthFunnel",
+        "mouthLeft",
+        "mouthPucker",
+    ),
+    *("mouthRight", "mouthRollLower", "mouthRollUpper", "mouthShrugLower"),
+    *(f"mouthSmile{side}" for side in SIDES),
+)
+MOODS = tuple(name for name in EXPRESSIONS if name != "neutral")
+PAIRS = (
+    *((f"eyeBlink{side}", f"{other}{side}") for side in SIDES for other in ("eyeLookDown", "eyeLookUp")),
+    *((f"eyeBlink{side}", f"{other}{side}") for side in SIDES for other in ("eyeSquint", "cheekSquint")),
+    *((f"eyeWide{side}", f"eyeLook{way}{side}") for side in SIDES for way in ("Up", "Down")),
+    *(("AU43", "AU6"), ("AU43", "AU7"), ("AU43", "AU64"), ("AU5", "AU63")),
+    *((mood, "AU43") for mood in MOODS),
+    *((mood, f"eyeBlink{side}") for mood in MOODS for side in SIDES),
+)
+# Of a corrective, vertices that it moves less than this (cm) stay.
+SMALLEST = 0.003
+
+
+@dataclass(frozen=True)
+class MadeCorrective:
+    """A shape's name, its offsets (V, 3) in centimetres, and the shapes of its hat or its product."""
+
+    name: str
+    offsets: np.ndarray
+    hat: str | None = None
+    product: tuple[str, ...] = ()
+
+
+def recipes_by_name(arkit_names: list[str]) -> dict[str, dict]:
+    """The recipe of every shape of the files."""
+    expressions = {name: recipe for name, recipe in EXPRESSIONS.items() if recipe}
+    units = {name: recipe for name, (_, recipe) in FACS.items()}
+    return {**expressions, **units, **{name: arkit_recipe(name) for name in arkit_names}}
+
+
+def _scaled(recipe: dict, part: float) -> dict:
+    return {term: weight * part for term, weight in recipe.items()}
+
+
+def _both(one: dict, other: dict) -> dict:
+    return {term: one.get(term, 0) + other.get(term, 0) for term in dict.fromkeys([*one, *other])}
+
+
+def correctives(body: Body, arkit_names: list[str]) -> list[MadeCorrective]:
+    """Those of one person: the same for everybody, in the same order."""
+    recipes = recipes_by_name(arkit_names)
+    neutral = body.positions(body.shaper.neutral)
+
+    def at(recipe: dict) -> np.ndarray:
+        return body.positions(body.shaper.shape(recipe)) - neutral
+
+    moves = {name: at(recipe) for name, recipe in recipes.items()}
+    halves = [
+        MadeCorrective(f"{name} half way", at(_scaled(recipes[name], 0.5)) - 0.5 * moves[name], hat=name)
+        for name in HALF_WAY
+    ]
+    pairs = [
+        MadeCorrective(
+            f"{one} and {other}",
+            at(_both(recipes[one], recipes[other])) - moves[one] - moves[other],
+            product=(one, other),
+        )
+        for one, other in PAIRS
+    ]
+    return halves + pairs

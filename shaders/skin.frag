@@ -60,17 +60,21 @@ float height_at(vec2 place) {
     return height;
 }
 
+// The part of a direction that lies in the surface, of length 1.
+vec3 tangent(vec3 n, vec3 direction) {
+    direction -= n * dot(n, direction);
+    return direction * inversesqrt(max(dot(direction, direction), 1e-20));
+}
+
 vec3 slope_of_relief(vec3 n) {
     vec3 across = dFdx(surface_position), down = dFdy(surface_position);
     vec2 uv_across = dFdx(surface_uv), uv_down = dFdy(surface_uv);
 #ifdef RELIEF
     if (relief_is_normals) {
         vec3 told = texture(relief_texture, surface_uv).xyz * 2.0 - 1.0;
-        float turn = uv_across.x * uv_down.y - uv_across.y * uv_down.x;
-        vec3 along_u = (across * uv_down.y - down * uv_across.y) * (turn < 0.0 ? -1.0 : 1.0);
-        along_u -= n * dot(n, along_u);
-        along_u *= inversesqrt(max(dot(along_u, along_u), 1e-20));
-        vec3 along_v = cross(n, along_u) * (side < 0.0 ? -1.0 : 1.0);
+        float turn = uv_across.x * uv_down.y - uv_across.y * uv_down.x < 0.0 ? -1.0 : 1.0;
+        vec3 along_u = tangent(n, (across * uv_down.y - down * uv_across.y) * turn);
+        vec3 along_v = tangent(n, (down * uv_across.x - across * uv_down.x) * turn);
         return -(told.x * along_u + told.y * along_v) / max(told.z, 0.2);
     }
 #endif
@@ -125,7 +129,7 @@ void main() {
     vec3 bumped = normalize(n - slope);
     vec3 seen = paint.rgb * light;
     seen += key_light * (gloss * shines * shine(bumped, view, key_direction, rough));
-    seen += rim_light * (gloss * shines * shine(bumped, view, rim_direction, rough));
+    seen += rim_light * (0.25 * gloss * shines * shine(bumped, view, rim_direction, rough));
 #endif
 #ifdef GLOW
     seen = lit_up(seen);

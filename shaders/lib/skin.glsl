@@ -5,14 +5,14 @@
 #include "lib/light.glsl"
 
 // How far light scatters, in centimetres of a head of 30, by colour.
-const vec3 SCATTER = vec3(0.95, 0.42, 0.26);
+const vec3 SCATTER = vec3(0.50, 0.24, 0.15);
 // What fine relief is worth to light that comes from below the surface.
 const vec3 FIRMNESS = vec3(0.42, 0.72, 0.85);
 const float SPECULAR = 0.030;              // reflected head on, of an index of refraction of 1.42
 
 // Half the angle over which the terminator is blurred, as a cosine.
 vec3 softness(float bend) {
-    return clamp(bend * SCATTER, 0.05, 0.95);
+    return clamp(bend * SCATTER, 0.06, 0.80);
 }
 
 // A clamped cosine, blurred: exact light from x = soft on, none up to -soft, a parabola between.
@@ -35,7 +35,7 @@ vec3 light_in_skin(vec3 n, vec3 v, vec3 slope, float bend) {
     edge *= edge;
     float behind = dot(n, rim_direction);
     light += rim_light * (max(behind * 0.75 + 0.25, 0.0) * edge * edge * sheen);
-    vec3 thin = max(soft - 0.45, 0.0);
+    vec3 thin = max(soft - 0.38, 0.0);
     return light + rim_light * thin * thin * (0.9 * max(-behind, 0.0));
 }
 

@@ -126,7 +126,7 @@ RULES = (
         {"AU18": 1.0, "AU22": 0.40, "AU23": 0.60, "AU24": 0.55, "AU28": 0.50, "angry": 0.45,
          "mouthPucker": 1.0, "mouthFunnel": 0.40, "mouthRollUpper": 0.40, "mouthShrugUpper": 0.40},
         {"mouthPress": 0.28},
-        ageing=0.22,
+        ageing=0.08,
         crosses=True,
     ),
 )  # fmt: skip

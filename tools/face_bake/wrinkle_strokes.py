@@ -26,17 +26,16 @@ class Stroke:
 def _forehead() -> tuple[Stroke, ...]:
     """Frontalis pulls up: lines across, higher over the brows' middles, broken, finer between."""
     strokes = []
-    for y, depth, reach in (
-        (7.625, 0.70, 0.44),
-        (7.690, 1.00, 0.50),
-        (7.765, 0.95, 0.53),
-        (7.840, 0.80, 0.50),
-        (7.915, 0.50, 0.42),
+    for y, depth, reach, width in (
+        (7.625, 0.60, 0.40, 0.0165),
+        (7.705, 1.00, 0.50, 0.0205),
+        (7.800, 0.95, 0.53, 0.0200),
+        (7.890, 0.65, 0.46, 0.0180),
     ):
-        arch = [(0.0, y - 0.020), (0.12, y), (0.26, y + 0.016), (0.40, y + 0.006), (reach, y - 0.030)]
-        strokes.append(Stroke(tuple(arch), 0.0135, depth, 0.010, 0.0, 0.45))
-    for s, y, length in ((0.05, 7.66, 0.14), (0.22, 7.73, 0.16), (0.10, 7.80, 0.15), (0.30, 7.66, 0.12)):
-        strokes.append(Stroke(((s, y), (s + 0.5 * length, y + 0.010), (s + length, y)), 0.009, 0.40))
+        arch = [(0.0, y - 0.022), (0.12, y), (0.26, y + 0.016), (0.40, y + 0.004), (reach, y - 0.034)]
+        strokes.append(Stroke(tuple(arch), width, depth, 0.009, 0.0, 0.55))
+    for s, y, length in ((0.06, 7.665, 0.15), (0.24, 7.755, 0.16), (0.10, 7.845, 0.14)):
+        strokes.append(Stroke(((s, y), (s + 0.5 * length, y + 0.010), (s + length, y)), 0.0105, 0.38))
     return tuple(strokes)
 
 
@@ -72,9 +71,9 @@ NOSE = (
 NASOLABIAL = (
     Stroke(
         ((0.190, 6.955), (0.225, 6.885), (0.290, 6.800), (0.340, 6.700), (0.352, 6.600), (0.340, 6.540)),
-        0.0210, 0.95, 0.006, 0.22, 0.45,
+        0.0300, 0.60, 0.005, 0.45, 0.55,
     ),
-    Stroke(((0.250, 6.900), (0.315, 6.810), (0.365, 6.710)), 0.0120, 0.30, 0.006, 0.4, 0.5),
+    Stroke(((0.250, 6.900), (0.315, 6.810), (0.365, 6.710)), 0.0140, 0.22, 0.006, 0.4, 0.5),
 )  # fmt: skip
 # Crescents outside a corner that is drawn back.
 SMILE = (

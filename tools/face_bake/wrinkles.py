@@ -89,7 +89,7 @@ def _painted(rule: Rule, points, around, front, seed: int) -> np.ndarray:
         s, y, a, b = rule.bumps
         where = np.exp(-(((around - s) / a) ** 2) - ((points[:, 1] - y) / b) ** 2) * (around > -0.002) * front
         pits = noise(points, 26) + 0.6 * noise(points + 5, 44)
-        height -= 0.55 * smoothstep(0.15, 1.3, pits) * smoothstep(0.1, 0.8, where)
+        height += 0.55 * np.clip(pits, -1.4, 1.0) * smoothstep(0.1, 0.7, where)
     return np.clip(height, -1, 1)
 
 
@@ -134,7 +134,8 @@ def _wandering(stroke: Stroke, rng) -> np.ndarray:
     smooth = np.stack([PchipInterpolator(way, column)(t) for column in line.T], 1)
     tangent = np.gradient(smooth, axis=0)
     tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
-    off = np.interp(t, np.linspace(0, way[-1], 8), stroke.astray * rng.standard_normal(8).clip(-1.6, 1.6))
+    wander = stroke.astray * rng.standard_normal(7).clip(-1.6, 1.6)
+    off = PchipInterpolator(np.linspace(0, way[-1], 7), wander)(t)
     if line[0, 0] == 0.0:
         off *= smoothstep(0.0, 0.05, smooth[:, 0])
     return smooth + off[:, None] * np.stack([-tangent[:, 1], tangent[:, 0]], 1)

@@ -8,7 +8,8 @@ from .correctives import HALF_WAY, PAIRS
 from .hair_atlas import hair_material
 from .head import Head
 from .lash_pictures import brow_material, lash_material
-from .people import Look, Person
+from .people import Person
+from .skin_pictures import skin_maps_text
 
 CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
 LICENCE = "CC0-1.0"
@@ -64,7 +65,8 @@ def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
     path.write_text("\n".join(head + vertices) + "\n" + layout, encoding="ascii", newline="\n")
 
 
-def write_mtl(path: Path, look: Look):
+def write_mtl(path: Path, person: Person):
+    look = person.look
     lines = [f"# {LICENCE}"]
     materials = MATERIALS | {
         "lash": lash_material(look),
@@ -78,6 +80,7 @@ def write_mtl(path: Path, look: Look):
         lines += ["d 0.995"] if name in SEE_THROUGH else []
         lines += [f"d {OPACITY[name]:g}"] if name in OPACITY else []
         lines += [f"map_Kd {picture}"] if picture else []
+        lines += skin_maps_text(person) if name == "skin" else []
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 
 
@@ -91,7 +94,7 @@ def _rules() -> list[str]:
     return lines
 
 
-def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list):
+def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list, wrinkles: list[str]):
     lines = [
         f'name = "{person.name}"',
         f'description = "{person.description}"',
@@ -113,5 +116,5 @@ def write_toml(path: Path, person: Person, expressions: list[str], landmarks: li
         lines += ["", "[[landmarks]]", f'name = "{landmark.name}"', f"vertex = {landmark.vertex}"]
         lines += [f'mpeg4 = "{landmark.mpeg4}"'] if landmark.mpeg4 else []
         lines += [f"ibug = {landmark.ibug}"] if landmark.ibug is not None else []
-    lines += _rules()
+    lines += _rules() + wrinkles
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")

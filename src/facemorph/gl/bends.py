@@ -9,7 +9,7 @@ from facemorph.core.normals import vertex_normals
 
 # A head with neck and hair is about so many centimetres high; meshes need not say their unit.
 _HEAD_CM = 30.0
-_SHARPEST = 3.0  # per centimetre: rims of lids and holes are no ears
+_SHARPEST = 2.0  # per centimetre: rims of lids and holes are no ears
 _SMOOTHINGS = 6
 
 

@@ -21,7 +21,7 @@ from facemorph.gl.materials import PLAIN, colour_without_texture, finish_of
 from facemorph.gl.textures import Textures
 
 FAIR = 0.44
-EASING = 0.42
+EASING = 0.36
 LEAST, MOST = 0.9, 2.2
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 

@@ -155,7 +155,8 @@ def test_equal_faces_are_not_parsed_again(folder: Path, monkeypatch) -> None:
 
 
 def test_faces_as_another_shape_writes_them_are_not_parsed_again(tmp_path: Path, monkeypatch) -> None:
-    textured = SQUARE.replace("\nf ", "\nvt 0 0\nf ", 1)
+    textured = SQUARE.replace("\nf 1 2 3 4", "\nvt 0 0\nf 1/1 2/1 3/1 4/1", 1)
+    assert textured != SQUARE
     for name, text in (("neutral.obj", textured), ("a.obj", moved()), ("b.obj", moved()), ("c.obj", moved())):
         written(tmp_path, text, name)
     parsed = []

@@ -8,6 +8,7 @@ from .cage import HEAD, MOUTH
 from .hair import growth
 from .head import Body, Head
 from .occlusion import visible_sky
+from .paintkit import smoothstep
 from .raster import Raster
 from .skin import Canvas, paint_skin
 from .source import mask_at
@@ -59,6 +60,6 @@ class Painter:
         skin = body.fine_skin(neutral)
         light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
         # Roots are painted dark already: shaded once more they would be black between the strands.
-        light = np.maximum(light, ROOT_LIGHT * (growth(self._base, body.person.look) > 0))
+        light = np.maximum(light, ROOT_LIGHT * smoothstep(3, 12, growth(self._base, body.person.look)))
         colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
         return Image.fromarray(self._raster.picture(colours))

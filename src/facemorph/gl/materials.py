@@ -74,15 +74,15 @@ TEETH = Finish(
 )
 GUM = Finish(
     wrap=(0.40, 0.22, 0.20),
-    gloss=0.22,
-    sharpness=70.0,
+    gloss=0.12,
+    sharpness=55.0,
     sheen=0.0,
     catches=True,
     shader="mouth.frag",
     by_pixel=True,
 )
-TONGUE = replace(GUM, gloss=0.16, sharpness=34.0)
-MOUTH = replace(GUM, gloss=0.08, sharpness=30.0, spill=0.5)
+TONGUE = replace(GUM, gloss=0.10, sharpness=30.0)
+MOUTH = replace(GUM, gloss=0.05, sharpness=45.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
 HAIR = Finish(
     wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag", by_pixel=True

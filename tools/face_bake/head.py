@@ -92,7 +92,11 @@ class Body:
         self._origin = np.array([0, height, self.neutral[EYE_JOINTS].mean(0)[2]])
 
     def posed(self, shape: np.ndarray) -> Posed:
-        return Posed(self, shape)
+        lifted = shape.copy()
+        for grid in (grid for grids in self.head.lids.lashes for grid in grids):
+            roots = shape[grid[0]]
+            lifted[grid] += self.eyes.push_out(roots, self.neutral[grid[0]], True, shape) - roots
+        return Posed(self, lifted)
 
     def fine_skin(self, shape: np.ndarray) -> np.ndarray:
         """All fine skin vertices in base-mesh space."""

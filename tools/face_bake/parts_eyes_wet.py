@@ -15,8 +15,9 @@ FINER, WIDTH = 2, 0.0042
 ACROSS = ((1.0, 0.0), (0.26, 0.24), (0.0, 0.85))
 # Just above what it lies on.
 LIFT = 0.0004
-# The caruncle: half sizes along the lids, upright and outwards in decimetres, and its rings of vertices.
-CARUNCLE = np.array([0.0195, 0.0105, 0.0065])
+# The caruncle: half sizes along the lids, upright and outwards in decimetres, how far it lies back, and its rings of vertices.
+CARUNCLE = np.array([0.0175, 0.0090, 0.0080])
+SUNK = 0.0045
 CARUNCLE_RINGS, CARUNCLE_SIDES = (28, 58, 90), 10
 
 
@@ -95,20 +96,18 @@ class Caruncles:
         """The fine vertices around the corner of the opening next to the nose."""
         columns = rings.columns[side]
         order = np.argsort(np.abs(base.points[columns[:, 0], 0]), kind="stable")
-        return np.searchsorted(np.unique(cage.faces), columns[order[:5], 1])
+        return np.searchsorted(np.unique(cage.faces), columns[order[:5], 1:3])
 
     def place(self, posed: Posed) -> np.ndarray:
         return np.concatenate([self._mound(posed, side) for side in (0, 1)])
 
     def _mound(self, posed: Posed, side: int) -> np.ndarray:
         centre = posed.body.eyes.placed(side, posed.shape)[0]
-        corner = posed.skin[self._corners[side]].mean(0)
+        corner = posed.skin[self._corners[side]].mean((0, 1))
         outwards = _unit(0.5 * _unit(corner - centre) + [0, 0, 0.5])
         across = _unit(np.cross([0, 1.0, 0], outwards))
         axes = np.stack([across, np.cross(outwards, across), outwards])
-        # A little towards the nose, and sunk in, so that only its flat top shows.
-        nose = [-0.004 if side == 0 else 0.004, 0.001, 0]
-        return corner + nose + (self._dome * CARUNCLE - [0, 0, 0.5 * CARUNCLE[2]]) @ axes
+        return corner + ((self._dome - [0, 0, 1]) * CARUNCLE - [0, 0, SUNK]) @ axes
 
 
 def _unit(vectors: np.ndarray) -> np.ndarray:

@@ -15,7 +15,8 @@ REST_OF_MEN = {
     "arkit:browInnerUp": 0.12,
     "mh:eyebrows-up": 0.16,
     "mh:eyebrows-extern-up": 0.18,
-    "mh:eye-opened-up": 0.20,
+    "mh:eye-opened-up": 0.35,
+    "arkit:eyeWide": 0.22,
 }
 
 

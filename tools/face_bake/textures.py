@@ -35,10 +35,9 @@ class Painter:
         upper, lower = (self._lid_distance(points, upper) for upper in (True, False))
         lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 1.3, source_uv) * 1.25 - 0.12, 0, 1)
         ears = mask_at(head.source.mask("mpfb_ears.jpg"), 3, source_uv)
-        outside = island == HEAD
-        self._canvas = Canvas(
-            points, lips * outside, ears * outside, (island == MOUTH).astype(np.float32), upper, lower
-        )
+        lid_edge = self._raster.sample(fine.operator @ head.lids.edges(), self._triangles)
+        outside, mouth = island == HEAD, (island == MOUTH).astype(np.float32)
+        self._canvas = Canvas(points, lips * outside, ears * outside, mouth, upper, lower, lid_edge)
 
     def _lid_distance(self, points: np.ndarray, upper: bool) -> np.ndarray:
         """Distance (p,) to the edge of the upper or lower lids; only measured near the eyes."""

@@ -15,7 +15,7 @@ from .parts import Group, Part, Posed, stacked
 from .parts_eyes import Eye
 from .parts_eyes_ball import EYE_VERTICES, Eyeballs, LookUnits
 from .parts_eyes_rings import LidRings
-from .parts_eyes_wet import Caruncles, Tears
+from .parts_eyes_wet import Tears
 from .parts_skin import SkinPart
 from .parts_teeth import Teeth
 from .parts_tongue import Tongue
@@ -64,7 +64,6 @@ class Head:
             Eye(0),
             Eye(1),
             Tears(self.cage, self.lids, self.source.base),
-            Caruncles(self.cage, self.lids, self.source.base),
             Teeth(upper=True),
             Teeth(upper=False),
             Tongue(),

@@ -7,14 +7,18 @@ from .people import Look
 
 # Factors on the skin's colour.
 WET, LASH_LINE = (1.0, 0.72, 0.68), (0.30, 0.24, 0.22)
+# The edge of the upper lid, which faces down.
+SHADED = (0.60, 0.47, 0.44)
 # Least light on the edge, which moves out of the shade, and on the upper lid, which a blink unfolds.
-EDGE_LIGHT, LID_LIGHT = 0.78, 0.66
+EDGE_LIGHT, LID_LIGHT = 0.78, 0.76
 
 
 def paint_lids(colour: np.ndarray, wet: np.ndarray, upper: np.ndarray, lower: np.ndarray, look: Look):
     """Over skin colours (p, 3); `wet` (p,) 0..1 on the lids' edges, distances (p,) to both lash lines."""
     # The upper lid's edge lies in the shade of its lashes.
-    wet = wet * (0.35 + 0.65 * smoothstep(-0.03, 0.03, upper - lower))
+    below = smoothstep(-0.03, 0.03, upper - lower)
+    colour = tint(colour, 0.8 * smoothstep(0.15, 0.75, wet) * (1 - below), SHADED)
+    wet = wet * below
     dry = np.clip(1 - 1.2 * wet, 0, 1)
     strength = 0.70 if look.feminine else 0.45
     colour = tint(colour, strength * dry * smoothstep(0.024, 0.004, upper), LASH_LINE)

@@ -17,6 +17,20 @@ OVERLAP = 0.009
 # Beyond these the offsets would not be a blink any more.
 LEAST, MOST = 0.2, 1.4
 
+# What MakeHuman's look units lack: lids go with the eye, so much of another unit for each of theirs.
+FOLLOW = {"eyeLookUp": ("eyeWide", 0.45), "eyeLookDown": (BLINK, 0.13)}
+
+
+def with_lids(recipe: dict) -> dict:
+    """A recipe whose lids follow the eyes that it turns up or down."""
+    full = dict(recipe)
+    for term, weight in recipe.items():
+        for look, (unit, share) in FOLLOW.items():
+            if term.startswith(f"arkit:{look}"):
+                moved = f"arkit:{unit}{term.removeprefix(f'arkit:{look}')}"
+                full[moved] = full.get(moved, 0.0) + share * weight
+    return full
+
 
 def lash_grids(base: BaseMesh, side: int) -> list[np.ndarray]:
     """Base-mesh vertices (rows, columns) of the upper and the lower lashes of a side; roots first."""

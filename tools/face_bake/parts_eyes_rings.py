@@ -101,4 +101,3 @@ class LidRings:
         for grid in self.lashes[side]:
             lift[grid[0]] = lift[edge][cKDTree(points[edge]).query(points[grid[0]])[1]]
         return lift
-

@@ -94,6 +94,7 @@ ADA = Person(
         "chin/chin-triangle": 0.3,
         "forehead/forehead-scale-vert-decr": 0.2,
     },
+    rest={**REST, "arkit:eyeWide": -0.12},
 )
 BEN = Person(
     "ben",
@@ -212,6 +213,7 @@ ZOLA = Person(
         "chin/chin-height-incr": 0.2,
         "forehead/forehead-scale-vert-decr": 0.15,
     },
+    rest={**REST, "arkit:eyeWide": -0.25},
 )
 OMAR = Person(
     "omar",

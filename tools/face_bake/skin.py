@@ -50,7 +50,7 @@ def _zones(colour, points, mottling, look: Look) -> np.ndarray:
     ):
         colour = tint(colour, amount * _spot(points, centre, radii), factor)
     lid = Plane(0, 0.7, 7.0, 7.7, 400, blur=0.03).ellipse((0.135, 7.435), (0.50, 7.20)).sampler()
-    return tint(colour, 0.35 * lid(np.abs(points[:, 0]), points[:, 1]) * (points[:, 2] > 1.1), look.lid)
+    return tint(colour, 0.25 * lid(np.abs(points[:, 0]), points[:, 1]) * (points[:, 2] > 1.1), look.lid)
 
 
 def _lips(colour, canvas: Canvas, mottling, noise: Noise, look: Look) -> np.ndarray:

@@ -61,7 +61,6 @@ TEAR = Finish(
     shader="tear.frag",
     by_pixel=True,
 )
-CARUNCLE = Finish(wrap=(0.42, 0.24, 0.20), gloss=0.35, sharpness=60.0, sheen=0.0)
 TEETH = Finish(
     wrap=(0.60, 0.54, 0.47),
     gloss=0.30,
@@ -104,7 +103,6 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("palate", GUM),
     ("mouth", MOUTH),
     ("tear", TEAR),
-    ("caruncle", CARUNCLE),
     ("eye", EYE),
     ("cornea", EYE),
     ("sclera", EYE),

@@ -17,7 +17,6 @@ GROUPS = [
     "eye_L",
     "eye_R",
     "tears",
-    "caruncles",
     "teeth_upper",
     "gums_upper",
     "teeth_lower",

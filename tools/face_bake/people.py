@@ -15,7 +15,8 @@ REST_OF_MEN = {
     "arkit:browInnerUp": 0.12,
     "mh:eyebrows-up": 0.16,
     "mh:eyebrows-extern-up": 0.18,
-    "mh:eye-opened-up": 0.20,
+    "mh:eye-opened-up": 0.35,
+    "arkit:eyeWide": 0.22,
 }
 
 
@@ -93,6 +94,7 @@ ADA = Person(
         "chin/chin-triangle": 0.3,
         "forehead/forehead-scale-vert-decr": 0.2,
     },
+    rest={**REST, "arkit:eyeWide": -0.12},
 )
 BEN = Person(
     "ben",
@@ -211,6 +213,7 @@ ZOLA = Person(
         "chin/chin-height-incr": 0.2,
         "forehead/forehead-scale-vert-decr": 0.15,
     },
+    rest={**REST, "arkit:eyeWide": -0.25},
 )
 OMAR = Person(
     "omar",

@@ -49,16 +49,16 @@ class ReliefPainter:
         self._canvas, self._raster = canvas, raster
         points = canvas.points
         noise = Noise(31)
-        nearest, second = cells(points, NET, seed=5)
+        nearest, second, _ = cells(points, NET, seed=5)
         self._net = 1 - smoothstep(0.0, 0.30, second - nearest)
-        nearest, _ = cells(points, PORE, seed=9)
+        nearest, *_ = cells(points, PORE, seed=9)
         self._pores = 1 - smoothstep(0.10, 0.42, nearest)
         self._swell = 0.6 * noise(points, 42) + 0.4 * noise(points + 3, 85)
         # Crêpe below the eyes and at their corners: finer lines, all one way.
         x, y, z = points.T
         lines = noise(np.stack([x * 14, y * 105, z * 14], -1), 1)
         self._crepe = smoothstep(0.2, 1.4, lines)
-        creases = noise(np.stack([x * 78 + 2 * np.sin(25 * y), y * 7, z * 7], -1), 1)
+        creases = noise(np.stack([x * 84 + 0.8 * np.sin(25 * y), y * 7, z * 7], -1), 1)
         self._lip_creases = 1 - smoothstep(0.0, 0.55, np.abs(creases))
         self._porous = _porous(points)
 

@@ -108,5 +108,3 @@ class ReliefPainter:
         image[self._raster.covered] = np.round(levels).astype(np.uint8)
         nearest = distance_transform_edt(~self._raster.covered, return_distances=False, return_indices=True)
         return image[tuple(nearest)]
-
-

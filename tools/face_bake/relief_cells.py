@@ -5,6 +5,15 @@ import numpy as np
 _CHUNK = 200_000
 
 
+def cells_where(where: np.ndarray, points: np.ndarray, size: float, seed: int):
+    """`cells` at the places where `where` (p,) is above 0; far away from all points elsewhere."""
+    found = [np.full(len(points), fill, np.float32) for fill in (9.0, 9.0, 1.0)]
+    chosen = where > 0
+    for whole, part in zip(found, cells(points[chosen], size, seed), strict=True):
+        whole[chosen] = part
+    return found
+
+
 def cells(points: np.ndarray, size: float, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Distances (p,) from places (p, 3) to the nearest and second nearest point, in cells (Worley 1996).
 

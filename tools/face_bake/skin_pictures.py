@@ -1,15 +1,16 @@
-"""The pictures of the skin besides its colours: relief, roughness and wrinkles, and what the files say of them."""
+"""The pictures of the skin besides its colours: relief, roughness, wrinkles; what the files say of them."""
 
 from pathlib import Path
 
 from PIL import Image
 
+from .ageing import age_of
 from .head import Body
 from .people import Person
 from .relief import ReliefPainter, relief_height
 from .textures import Painter
 from .wrinkle_rules import SET_NAMES
-from .wrinkles import age_of, paint_wrinkles, wrinkle_height
+from .wrinkles import paint_wrinkles, wrinkle_height
 
 RELIEF_QUALITY, ROUGHNESS_QUALITY, WRINKLE_QUALITY = 74, 85, 88
 # Sides of the pictures as parts of the skin's.

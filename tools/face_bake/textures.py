@@ -4,6 +4,7 @@ import numpy as np
 from PIL import Image
 from scipy.spatial import cKDTree
 
+from .ageing import age_of
 from .cage import HEAD, MOUTH
 from .hair import growth
 from .head import Body, Head
@@ -55,7 +56,7 @@ class Painter:
 
     def skin(self, body: Body) -> Image.Image:
         """The skin of a person with the occlusion of the neutral face baked in."""
-        colours = paint_skin(self._canvas, self.light(body), body.person.look)
+        colours = paint_skin(self._canvas, self.light(body), body.person.look, age_of(body.person))
         return Image.fromarray(self._raster.picture(colours))
 
     @property

@@ -4,7 +4,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from PIL import Image
+from scipy.interpolate import PchipInterpolator
 
+from .ageing import age_of
 from .atlas import BOXES
 from .cage import HEAD
 from .paintkit import Noise, smoothstep
@@ -18,8 +20,7 @@ AXIS_Z, AROUND = 0.35, 1.0
 STEPS = 48
 MIDDLE = 128
 # Heights in centimetres from black to white, of a young skin and what age adds.
-YOUNG, AGEING = 0.085, 0.075
-YOUNG_UNTIL, OLD_FROM = 0.5, 0.72
+YOUNG, AGEING = 0.075, 0.075
 
 
 @dataclass(frozen=True)
@@ -28,11 +29,6 @@ class Placed:
 
     rule: Rule
     areas: dict = field(default_factory=dict)
-
-
-def age_of(person: Person) -> float:
-    """0 young to 1 old."""
-    return float(np.clip((person.body.age - YOUNG_UNTIL) / (OLD_FROM - YOUNG_UNTIL), 0, 1))
 
 
 def wrinkle_height(person: Person) -> float:
@@ -126,8 +122,6 @@ def _uneven(rng) -> np.ndarray:
 
 def _wandering(stroke: Stroke, rng) -> np.ndarray:
     """Points (STEPS, 2) along a smooth curve through the stroke's line, off it by a smooth noise."""
-    from scipy.interpolate import PchipInterpolator
-
     line = np.array(stroke.line, float)
     way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
     t = np.linspace(0, way[-1], STEPS)

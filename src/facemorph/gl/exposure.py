@@ -1,15 +1,17 @@
-"""How bright the lights are: as a photographer opens the lens for dark skin, so that all faces show their form.
+"""How bright the lights are: as a photographer opens the lens for dark skin, so that its form shows too.
 
-    exposure = clamp((FAIR / luminance) ^ EASING, LEAST, MOST)
+    exposure = clamp((FAIR / Y)^EASING, LEAST, MOST)
 
-`luminance` is the median of the skin's linear luminance Y = 0.2126 R + 0.7152 G + 0.0722 B, over its
-polygons' corners, of texture, vertex colours or plain colour. All lights are multiplied by it, so that skin
-keeps its own colour, and dark skin stays darker than fair skin: by the easing the ratio is taken back in
-part only. A mixture of people has the mean of their exposures by shares.
+Y = 0.2126 R + 0.7152 G + 0.0722 B is the linear luminance of the skin's mean colour: of what its texture,
+its vertices or its material store, over all that faces +Z, by area. All lights are multiplied by it, so
+that skin keeps its own colour, and dark skin stays darker than fair skin: the easing takes the ratio back
+in part only. Mixed people's means are mixed as their colours are (`gl.colours`), so that a mixture is lit
+as one face of that colour.
 """
 
 from __future__ import annotations
 
+import math
 import weakref
 from collections.abc import Mapping, Sequence
 
@@ -17,77 +19,119 @@ import numpy as np
 
 from facemorph.core.arrays import Float64, Int64
 from facemorph.core.mesh import Material, Mesh
+from facemorph.gl.colours import encoded
 from facemorph.gl.materials import PLAIN, colour_without_texture, finish_of
 from facemorph.gl.textures import Textures
 
-FAIR = 0.44
+FAIR = 0.28
 EASING = 0.36
-LEAST, MOST = 0.9, 2.2
+LEAST, MOST = 0.85, 2.2
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+_WHITE = (1.0, 1.0, 1.0)
 
 
 class Exposures:
-    """The exposures of meshes, each worked out once."""
+    """The exposures of meshes and their mixtures; each mesh is looked at once."""
 
     def __init__(self, textures: Textures) -> None:
         self._textures = textures
-        self._known: weakref.WeakKeyDictionary[Mesh, float] = weakref.WeakKeyDictionary()
+        self._known: weakref.WeakKeyDictionary[Mesh, Float64 | None] = weakref.WeakKeyDictionary()
 
     def of(self, meshes: Sequence[Mesh], shares: Sequence[float]) -> float:
-        """That of a mixture of people; those without a share are not looked at."""
-        return sum(share * self._one(mesh) for mesh, share in zip(meshes, shares, strict=True) if share)
+        """That of a mixture by shares; 1 where nobody has skin."""
+        found = [(self._mean(mesh), share) for mesh, share in zip(meshes, shares, strict=True) if share]
+        means = [(mean, share) for mean, share in found if mean is not None]
+        total = math.fsum(share for _, share in means)
+        if not total:
+            return 1.0
+        # Exact sums, so that the order of people changes no pixel.
+        columns = zip(*((mean * share).ravel().tolist() for mean, share in means), strict=True)
+        stored, factor = np.reshape([math.fsum(column) / total for column in columns], (2, 3))
+        return exposure(float((_linear(stored) * factor) @ _LUMINANCE))
 
-    def _one(self, mesh: Mesh) -> float:
+    def _mean(self, mesh: Mesh) -> Float64 | None:
         if mesh not in self._known:
-            found = skin_luminances(mesh, self._textures)
-            self._known[mesh] = exposure(float(np.median(found))) if len(found) else 1.0
+            self._known[mesh] = mean_skin(mesh, self._textures)
         return self._known[mesh]
 
 
 def exposure(luminance: float) -> float:
-    """What lights are multiplied by for skin of that median luminance."""
+    """What lights are multiplied by for skin of that luminance."""
     return float(np.clip((FAIR / max(luminance, 1e-4)) ** EASING, LEAST, MOST))
 
 
-def exposed(lights: Mapping[str, object], factor: float) -> dict[str, object]:
+def exposed(scene: Mapping[str, object], factor: float) -> dict[str, object]:
     """The uniforms with the colours of the lights among them multiplied by `factor`."""
     return {
         name: tuple(float(part) * factor for part in value)
         if name.endswith("_light") and isinstance(value, tuple)
         else value
-        for name, value in lights.items()
+        for name, value in scene.items()
     }
 
 
-def skin_luminances(mesh: Mesh, textures: Textures) -> Float64:
-    """Linear luminance at each corner (n,) of polygons of skin; none where there is no skin."""
+def mean_skin(mesh: Mesh, textures: Textures) -> Float64 | None:
+    """The stored colour of a mesh's skin, sRGB, and the linear factor on it, (2, 3); None without skin."""
     used = mesh.materials_used
-    of_polygon = np.full(mesh.polygon_count, -1) if used is None else used.index
-    names = () if used is None else used.names
-    found = []
+    names = used.names if used is not None else ()
+    of_polygon = used.index if used is not None else np.full(mesh.polygon_count, -1)
+    weight = _facing(mesh)
+    total, sums = 0.0, np.zeros((2, 3))
     for index in (-1, *range(len(names))):
         material = PLAIN if index < 0 else mesh.materials.get(names[index], PLAIN)
-        corners = np.flatnonzero(np.repeat(of_polygon == index, np.diff(mesh.polygon_starts)))
-        if len(corners) and finish_of(material).relief:
-            found.append(_luminances(material, mesh, corners, textures))
-    return np.concatenate(found) if found else np.zeros(0)
+        polygons = np.flatnonzero((of_polygon == index) & (weight > 0.0))
+        if not len(polygons) or not finish_of(material).relief:
+            continue
+        # A corner of each polygon is enough: thousands of them are skin.
+        corners = mesh.polygon_starts[polygons].astype(np.int64)
+        stored, factor = _colours(material, mesh, corners, textures)
+        here = float(weight[polygons].sum())
+        sums += here * np.stack([np.average(stored, axis=0, weights=weight[polygons]), factor])
+        total += here
+    return sums / total if total else None
 
 
-def _luminances(material: Material, mesh: Mesh, corners: Int64, textures: Textures) -> Float64:
+def _facing(mesh: Mesh) -> Float64:
+    """For each polygon (P,) the area of its first triangle as seen from +Z; 0 for what faces away."""
+    first = mesh.polygon_starts[:-1].astype(np.int64)
+    whole = np.diff(mesh.polygon_starts) >= 3
+    a, b, c = (
+        mesh.positions[mesh.corner_vertices[np.where(whole, first + k, 0)]].astype(np.float64)
+        for k in range(3)
+    )
+    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+    return np.where(whole, np.maximum(area, 0.0), 0.0)
+
+
+def _colours(
+    material: Material, mesh: Mesh, corners: Int64, textures: Textures
+) -> tuple[Float64, tuple[float, float, float]]:
+    """Stored colours (n, 3) at corners, and the factor on them, as `gl.colours.source_of` has them."""
     small = textures.small(material.texture) if material.texture is not None else None
     if small is not None and mesh.corner_uvs is not None and len(mesh.uvs):
-        which = mesh.corner_uvs[corners]
-        uvs = mesh.uvs[which[which >= 0]].astype(np.float64) % 1.0
-        places = np.minimum((uvs * len(small)).astype(int), len(small) - 1)
-        shown = small[places[:, 1], places[:, 0]].astype(np.float64) / 255.0
-        colours = _linear(shown if shown.shape[1] < 3 else shown[:, :3]) * material.diffuse
-    elif mesh.colours is not None:
-        colours = _linear(mesh.colours[mesh.corner_vertices[corners]].astype(np.float64))
-    else:
-        colours = np.tile(colour_without_texture(material), (len(corners), 1))
-    return np.asarray(colours @ _LUMINANCE, np.float64)
+        uvs = mesh.uvs[np.maximum(mesh.corner_uvs[corners], 0)].astype(np.float64)
+        shown = _looked_up(small.astype(np.float64) / 255.0, uvs % 1.0)
+        return shown, material.diffuse
+    if mesh.colours is not None:
+        return mesh.colours[mesh.corner_vertices[corners]].astype(np.float64), _WHITE
+    lost = material.texture is not None or material.texture_lost
+    plain = colour_without_texture(material) if lost else material.diffuse
+    return np.tile([encoded(part) for part in plain], (len(corners), 1)), _WHITE
+
+
+def _looked_up(picture: Float64, uvs: Float64) -> Float64:
+    """Colours (n, 3) of a picture (h, w, channels), bottom row first, between its pixels."""
+    side = len(picture)
+    place = np.clip(uvs * side - 0.5, 0.0, side - 1.0)
+    low = np.minimum(place.astype(np.int64), side - 2)
+    u, v = (place - low).T[:, :, None]
+    column, row = low.T
+    below = picture[row, column] * (1.0 - u) + picture[row, column + 1] * u
+    above = picture[row + 1, column] * (1.0 - u) + picture[row + 1, column + 1] * u
+    shown = below * (1.0 - v) + above * v
+    return shown[:, :3] if shown.shape[1] >= 3 else np.repeat(shown[:, :1], 3, axis=1)
 
 
 def _linear(stored: Float64) -> Float64:
-    """`linear_from_srgb` of `shaders/lib/colour.glsl`; one channel stands for three."""
+    """`linear_from_srgb` of `shaders/lib/colour.glsl`."""
     return np.asarray(stored * (stored * (stored * 0.305306011 + 0.682171111) + 0.012522878), np.float64)

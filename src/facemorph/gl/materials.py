@@ -43,7 +43,13 @@ class Finish:
 
 
 SKIN = Finish(
-    wrap=(0.34, 0.17, 0.11), gloss=0.72, sharpness=26.0, sheen=0.9, matte=0.045, shader="skin.frag", relief=True
+    wrap=(0.34, 0.17, 0.11),
+    gloss=0.72,
+    sharpness=26.0,
+    sheen=0.9,
+    matte=0.045,
+    shader="skin.frag",
+    relief=True,
 )
 EYE = Finish(
     wrap=(0.30, 0.28, 0.28),

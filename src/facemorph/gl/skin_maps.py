@@ -26,7 +26,7 @@ class SkinMaps:
     """Definitions and uniforms for the shader."""
 
     defines: list[str] = field(default_factory=list)
-    uniforms: Mapping[str, object] = field(default_factory=dict)
+    uniforms: dict[str, object] = field(default_factory=dict)
 
 
 def skin_maps(
@@ -36,7 +36,8 @@ def skin_maps(
 
     Maps lie at the coordinates of the texture, so a skin without one has none.
     """
-    define, told = ["SKIN"], {"roughness": PLAIN_ROUGHNESS}
+    define: list[str] = ["SKIN"]
+    told: dict[str, object] = {"roughness": PLAIN_ROUGHNESS}
     if source.texture is None:
         return SkinMaps(define, told)
     relief = textures.at(material.bump)

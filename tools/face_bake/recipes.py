@@ -10,8 +10,8 @@ import re
 EXPRESSIONS = {
     "neutral": {},
     "happy": {
-        "sculpt:smile": 1.0,
-        "sculpt:cheek": 0.9,
+        "sculpt:smile": 1.1,
+        "sculpt:cheek": 1.0,
         "sculpt:upper": 0.45,
         "sculpt:part": 0.55,
         "arkit:jawOpen": 0.05,
@@ -19,9 +19,9 @@ EXPRESSIONS = {
         "sculpt:browOuter": 0.08,
     },
     "sad": {
-        "sculpt:browInner": 1.25,
+        "sculpt:browInner": 1.4,
         "sculpt:browDown": 0.75,
-        "sculpt:frown": 0.75,
+        "sculpt:frown": 0.82,
         "sculpt:chin": 0.55,
         "sculpt:stretch": 0.15,
         "arkit:eyeBlink": 0.08,
@@ -49,10 +49,10 @@ EXPRESSIONS = {
         "sculpt:oval": 1.1,
     },
     "disgusted": {
-        "sculpt:sneer": 1.3,
-        "sculpt:upper": 0.55,
-        "sculpt:browDown": 0.75,
-        "sculpt:browAngle": 0.30,
+        "sculpt:sneer": 1.5,
+        "sculpt:upper": 0.75,
+        "sculpt:browDown": 0.65,
+        "sculpt:browAngle": 0.10,
         "sculpt:cheek": 0.55,
         "arkit:eyeSquint": 0.65,
         "sculpt:frown": 0.22,
@@ -60,8 +60,8 @@ EXPRESSIONS = {
         "sculpt:stretch": 0.10,
     },
     "afraid": {
-        "sculpt:browInner": 1.25,
-        "sculpt:browOuter": 0.55,
+        "sculpt:browInner": 1.4,
+        "sculpt:browOuter": 0.65,
         "sculpt:browDown": 0.75,
         "mh:eye-opened-up": 1.05,
         "arkit:eyeWide": 0.3,

@@ -57,7 +57,8 @@ class Exposures:
 
 def exposure(luminance: float) -> float:
     """What lights are multiplied by for skin of that luminance."""
-    return float(np.clip((FAIR / max(luminance, 1e-4)) ** EASING, LEAST, MOST))
+    # Rounded, so that the order of polygons changes no pixel.
+    return round(float(np.clip((FAIR / max(luminance, 1e-4)) ** EASING, LEAST, MOST)), 4)
 
 
 def exposed(scene: Mapping[str, object], factor: float) -> dict[str, object]:
@@ -76,31 +77,34 @@ def mean_skin(mesh: Mesh, textures: Textures) -> Float64 | None:
     names = used.names if used is not None else ()
     of_polygon = used.index if used is not None else np.full(mesh.polygon_count, -1)
     weight = _facing(mesh)
+    sizes = np.diff(mesh.polygon_starts)
+    of_corner = np.repeat(weight / np.maximum(sizes, 1), sizes)
+    labels = np.repeat(of_polygon, sizes)
     total, sums = 0.0, np.zeros((2, 3))
     for index in (-1, *range(len(names))):
         material = PLAIN if index < 0 else mesh.materials.get(names[index], PLAIN)
-        polygons = np.flatnonzero((of_polygon == index) & (weight > 0.0))
-        if not len(polygons) or not finish_of(material).relief:
+        corners = np.flatnonzero((labels == index) & (of_corner > 0.0))
+        if not len(corners) or not finish_of(material).relief:
             continue
-        # A corner of each polygon is enough: thousands of them are skin.
-        corners = mesh.polygon_starts[polygons].astype(np.int64)
         stored, factor = _colours(material, mesh, corners, textures)
-        here = float(weight[polygons].sum())
-        sums += here * np.stack([np.average(stored, axis=0, weights=weight[polygons]), factor])
+        here = float(of_corner[corners].sum())
+        sums += np.stack([of_corner[corners] @ stored, here * np.array(factor)])
         total += here
     return sums / total if total else None
 
 
 def _facing(mesh: Mesh) -> Float64:
-    """For each polygon (P,) the area of its first triangle as seen from +Z; 0 for what faces away."""
-    first = mesh.polygon_starts[:-1].astype(np.int64)
-    whole = np.diff(mesh.polygon_starts) >= 3
-    a, b, c = (
-        mesh.positions[mesh.corner_vertices[np.where(whole, first + k, 0)]].astype(np.float64)
-        for k in range(3)
-    )
-    area = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    return np.where(whole, np.maximum(area, 0.0), 0.0)
+    """For each polygon (P,) its area as seen from +Z; 0 for what faces away."""
+    starts = mesh.polygon_starts.astype(np.int64)
+    place = mesh.positions[mesh.corner_vertices, :2].astype(np.float64)
+    following = np.arange(1, len(place) + 1)
+    # After a polygon's last corner comes its first.
+    filled = starts[1:] > starts[:-1]
+    following[starts[1:][filled] - 1] = starts[:-1][filled]
+    there = place[following] if len(place) else place
+    twice = place[:, 0] * there[:, 1] - place[:, 1] * there[:, 0]
+    sums = np.concatenate([[0.0], np.cumsum(twice)])
+    return np.asarray(np.maximum(0.5 * (sums[starts[1:]] - sums[starts[:-1]]), 0.0), np.float64)
 
 
 def _colours(

@@ -20,6 +20,7 @@ const float LIMBUS_IN_PICTURE = 0.27;
 const float CORNEA = 1.33;             // its radius, the limbus's being 1
 const float DEPTH = 0.46;              // of the iris's middle below it
 const float SOCKET = 0.80;              // light that brow, nose and cheek leave the white
+const vec3 CARUNCLE = vec3(0.46, 0.16, 0.13);
 const float INTO_EYE = 1.0 / 1.336;    // refractive index of air over that of the aqueous humour
 
 uniform bool eyes_known;
@@ -36,17 +37,25 @@ float cubic(vec4 c, float x) {
     return c.x + x * (c.y + x * (c.z + x * c.w));
 }
 
-// How much the lids' edges let through at a point of the ball: softly dark below the upper lid and its
-// lashes, a little above the lower one. The shadow of a wide open lid is wider.
-float beside_lids(int eye, vec3 place) {
+// How far a point of the ball is below the upper lid's edge and above the lower one's, in radii.
+vec2 from_lids(int eye, vec3 place) {
     float x = clamp(place.x, lid_span[eye].x, lid_span[eye].y);
-    float below = cubic(upper_lid[eye], x) - place.y;
-    float above = place.y - cubic(lower_lid[eye], x);
+    return vec2(cubic(upper_lid[eye], x) - place.y, place.y - cubic(lower_lid[eye], x));
+}
+
+// What the lids let through: softly dark below the upper one and its lashes, a little above the lower one.
+float beside_lids(float below, float above) {
     float lashes = 1.0 - 0.62 * exp2(-max(below, 0.0) * 9.0);
     float margin = 1.0 - 0.45 * exp2(-max(above, 0.0) * 26.0);
     // Towards the corners the lids close in.
     float corner = smoothstep(-0.05, 0.42, below + above);
     return lashes * margin * (0.55 + 0.45 * corner);
+}
+
+// The caruncle: a pink mound that fills the corner next to the nose, 0..1.
+float caruncle(int eye, vec3 place, float opening) {
+    float nasal = eye == 0 ? place.x - lid_span[0].x : lid_span[1].y - place.x;
+    return (1.0 - smoothstep(-0.02, 0.075, nasal)) * smoothstep(-0.04, 0.06, opening);
 }
 
 #ifdef TEXTURED
@@ -74,7 +83,10 @@ vec3 eyeball(int eye, vec3 n, vec3 view, inout vec4 paint) {
     vec2 lamp = vec2(dot(key_direction, right), dot(key_direction, up));
     light *= 1.0 + clear * (0.15 - 0.75 * dot(on_iris, lamp));
     vec3 place = (surface_position - eye_centre[eye]) / eye_radius[eye];
-    float open = beside_lids(eye, place);
+    vec2 lids = from_lids(eye, place);
+    float open = beside_lids(lids.x, lids.y);
+    float mound = caruncle(eye, place, lids.x + lids.y) * (1.0 - clear);
+    paint.rgb = mix(paint.rgb, CARUNCLE * (0.7 + 0.3 * paint.rgb), mound);
     // Blood in the lids reddens what shade they leave.
     vec3 seen = paint.rgb * light * pow(vec3(open), vec3(0.90, 1.04, 1.08));
 

@@ -22,14 +22,23 @@ const float SECOND_SHIFT = 0.14;
 const float INSIDE = 0.60;             // of the light is left underneath
 
 #ifdef TEXTURED
-// Along the strands, that is along v, across the surface's smooth normal.
+vec3 unit(vec3 v) {
+    float length2 = dot(v, v);
+    return length2 > 1e-20 ? v * inversesqrt(length2) : vec3(0.0, 1.0, 0.0);
+}
+
+// Along the strands, across the surface's smooth normal. Where u stays the same is a strand, but one that
+// breaks at every edge where strands spread; across where v stays the same hardly breaks. Half of each.
 vec3 strand(vec3 n) {
-    vec3 along = dFdx(surface_position) * dFdy(surface_uv.x) - dFdy(surface_position) * dFdx(surface_uv.x);
-    float turn = dFdx(surface_uv.y) * dFdy(surface_uv.x) - dFdy(surface_uv.y) * dFdx(surface_uv.x);
-    along *= turn < 0.0 ? -1.0 : 1.0;
-    along -= n * dot(along, n);
-    float length2 = dot(along, along);
-    return length2 > 1e-20 ? along * inversesqrt(length2) : vec3(0.0, 1.0, 0.0);
+    vec3 right = dFdx(surface_position);
+    vec3 up = dFdy(surface_position);
+    vec2 uv_right = dFdx(surface_uv);
+    vec2 uv_up = dFdy(surface_uv);
+    float turn = uv_right.y * uv_up.x - uv_up.y * uv_right.x;
+    vec3 along = right * uv_up.x - up * uv_right.x;
+    along = unit((turn < 0.0 ? -along : along) - n * dot(turn < 0.0 ? -along : along, n));
+    vec3 across = unit(cross(right * uv_up.y - up * uv_right.y, n));
+    return unit(along + (dot(along, across) < 0.0 ? -across : across));
 }
 
 float cone(vec3 along, vec3 n, vec3 half_way, float shift, float exponent) {
@@ -44,7 +53,7 @@ vec3 shine(vec3 paint, vec3 n, vec3 view) {
     float tone = sqrt(clamp(paint.g / max(albedo.g, 1e-4), 0.0, 1.0));
     float own = 0.3 * (tone - 0.5);
     vec3 key_half = normalize(key_direction + view);
-    float reached = smoothstep(-0.15, 0.45, dot(n, key_direction));
+    float reached = smoothstep(-0.3, 0.7, dot(n, key_direction));
     float first = cone(along, n, key_half, FIRST_SHIFT + own, sharpness);
     float second = cone(along, n, key_half, SECOND_SHIFT + own, sharpness * 0.25);
     vec3 dyed = sqrt(albedo) * (0.4 + 0.6 * tone);

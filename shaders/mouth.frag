@@ -14,6 +14,8 @@ in vec3 surface_position;
 uniform float spill;                   // how far light from the lips' edge spills onto it, in the mouth's size
 
 const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
+const float PASSED_ON = 0.7;
+const float AT_LIPS = 0.62;                    // of the light is left where lips end and their lining begins
 
 // How near the lips' edge a place is: 1 on it, 0 from `spill` on.
 float beside_lips(vec3 position) {
@@ -32,7 +34,7 @@ float beside_lips(vec3 position) {
 vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
     vec2 reached = mouth_light(surface_position, n, key_direction);
     if (spill > 0.0) {
-        reached = mix(reached, vec2(1.0), beside_lips(surface_position));
+        reached = mix(reached, vec2(AT_LIPS), beside_lips(surface_position));
     }
     vec3 around = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
     float fill = 0.5 + 0.5 * dot(n, fill_direction);
@@ -41,8 +43,10 @@ vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
     // The key is a wide lamp: half of it comes in wherever the surface sees the opening.
     float keyed = mix(reached.x, reached.y, 0.5) * min(2.0 * reached.x, 1.0);
     vec3 light = around * reached.x + key * keyed;
-    light *= mix(FLESH, vec3(1.0), smoothstep(0.0, 0.75, reached.x));
-    vec3 shine = highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.08, 0.5, reached.x);
+    // What does not see the opening is lit by what does: the palate by the tongue.
+    light += (0.3 * key_light + sky_light) * (PASSED_ON * reached.x * (1.0 - reached.x));
+    light *= mix(FLESH, vec3(1.0), smoothstep(0.0, 0.9, reached.x));
+    vec3 shine = highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.15, 0.7, reached.x);
     // Wet: what comes in at the opening mirrors at grazing angles.
     float edge = 1.0 - max(dot(n, view), 0.0);
     float mirrored = edge * edge * edge * edge * gloss * reached.x;

@@ -8,8 +8,8 @@ uniform vec3 aperture_normal;          // unit, out of the mouth
 uniform float aperture_size;           // half the distance between the corners; 0 where the lips are not known
 
 const float PI = 3.14159265358979;
-const float DIM = 0.05;                // what bounces about in a mouth that no light enters
-const float BOUNCE = 0.30;             // of what an opening lets in, how much reaches what does not see it
+const float DIM = 0.07;                // what bounces about in a mouth that no light enters
+const float BOUNCE = 0.42;             // of what an opening lets in, how much reaches what does not see it
 const float INTERREFLECTION = 0.56;    // teeth and flesh pass light on: shade is never as deep as the form factor
 const float PENUMBRA = 0.40;           // half of it, as a sine, of the key's shadow
 const float FRONT = 0.12;              // of the size: so far before the edge of the lips nothing is kept away

@@ -124,11 +124,13 @@ def test_skipping_equal_faces_does_not_change_what_is_read(
 ) -> None:
     monkeypatch.setattr("facemorph.io.face_set.CHUNK_BYTES", chunk)
     written(tmp_path, SQUARE, "neutral.obj")
+    # The second is read by the faces of the first, where they are not the neutral's own.
     written(tmp_path, text, "a.obj")
+    written(tmp_path, text, "b.obj")
 
-    def outcome() -> list[list[float]] | type[Exception]:
+    def outcome() -> list[list[list[float]]] | type[Exception]:
         try:
-            return load_rig(tmp_path, cache=False).deltas[0].tolist()
+            return load_rig(tmp_path, cache=False).deltas.tolist()
         except FacemorphError as error:
             return type(error)
 
@@ -150,6 +152,21 @@ def test_equal_faces_are_not_parsed_again(folder: Path, monkeypatch) -> None:
     monkeypatch.setattr("facemorph.io.face_set.parse_obj", counting)
     load_rig(folder, cache=False)
     assert parsed == ["neutral.obj"]
+
+
+def test_faces_as_another_shape_writes_them_are_not_parsed_again(tmp_path: Path, monkeypatch) -> None:
+    textured = SQUARE.replace("\nf 1 2 3 4", "\nvt 0 0\nf 1/1 2/1 3/1 4/1", 1)
+    assert textured != SQUARE
+    for name, text in (("neutral.obj", textured), ("a.obj", moved()), ("b.obj", moved()), ("c.obj", moved())):
+        written(tmp_path, text, name)
+    parsed = []
+    whole = obj_read_module.parse_obj
+    monkeypatch.setattr(
+        "facemorph.io.face_set.parse_obj", lambda path, data: (parsed.append(path.name), whole(path, data))[1]
+    )
+    rig = load_rig(tmp_path, cache=False)
+    assert parsed == ["neutral.obj", "a.obj"]
+    assert rig.deltas[:, 0].tolist() == [[0, 0, 1]] * 3
 
 
 def bad(tmp_path: Path, files: dict[str, str]) -> Path:

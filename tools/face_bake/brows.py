@@ -134,11 +134,12 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
     """Middle lines (strips, PAIRS, 2) on the base head's front and half widths (strips, 1, 1), dm."""
     rng, curve = np.random.default_rng(7), BrowCurve(look)
     lines, halves = [], []
-    for row in range(ROWS):
-        u = (np.arange(PLACES) + rng.uniform(0.2, 0.8, PLACES)) / PLACES
+    # Tips lie over the roots of the next hairs outwards and upwards, so those come first.
+    for row in reversed(range(ROWS)):
+        u = (np.arange(PLACES)[::-1] + rng.uniform(0.2, 0.8, PLACES)) / PLACES
         # The inner end frays: its hairs begin at any height.
-        fray = np.interp(u, [0, 0.25], [0.42, 0.16])
-        across = (-0.60, 0.10)[row] + fray * rng.uniform(-1, 1, PLACES)
+        fray = np.interp(u, [0, 0.25], [0.42, 0.16]) * (1 - 0.5 * row)
+        across = (-0.60, np.interp(u, [0, 0.2], [-0.15, 0.10]))[row] + fray * rng.uniform(-1, 1, PLACES)
         lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
         length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.85, 1.1, PLACES)
         tangent, half = curve.direction(u), curve.half_width(u)
@@ -174,5 +175,5 @@ def paint_brows(colour, points, look: Look) -> np.ndarray:
     outline = np.concatenate([np.c_[x, y + half], np.c_[x, y - half][::-1]])
     shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.010).polygon(outline).sampler()
     front = points[:, 2] > 0.95
-    soft = (np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.55, 0, 1) * front)[:, None]
-    return colour * (1 - soft) + colour * (np.array(look.brow, np.float32) * 0.6 + 0.25) * soft
+    soft = (np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.72, 0, 1) * front)[:, None]
+    return colour * (1 - soft) + (0.42 * colour + 0.40 * np.array(look.brow, np.float32)) * soft

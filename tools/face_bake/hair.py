@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from .hair_cuts import STYLES
 from .hair_frame import CENTRE
-from .hair_styles import STYLES
 from .paintkit import Noise, smoothstep
 from .people import Look
 

@@ -9,8 +9,9 @@ import numpy as np
 from PIL import Image
 from scipy.ndimage import gaussian_filter
 
+from .hair_cuts import STYLES
 from .hair_strokes import Coils, Strokes, ragged, swing
-from .hair_styles import STYLES, Texture
+from .hair_styles import Texture
 from .paintkit import smoothstep
 from .people import Look
 
@@ -89,7 +90,7 @@ def _straight_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Str
         length = np.clip(rng.normal(0.86, 0.10), 0.45, 1.0) - 0.10 * abs(at / spread)
         thick = rng.uniform(1.0, 2.0) * np.clip(1.25 - rows / max(length, 0.1) * 0.8, 0.25, 1)
         tone = 0.27 + 0.15 * smoothstep(0, 0.4, rows) + dark + rng.normal(0, 0.12 * texture.contrast)
-        opacity = smoothstep(length, length - 0.12, rows) * smoothstep(0.0, 0.08 + 0.25 * rng.uniform(), rows)
+        opacity = smoothstep(length, length - 0.12, rows) * smoothstep(0.0, 0.10 + 0.35 * rng.uniform(), rows)
         strokes.strand(x, thick, tone, opacity)
     return strokes
 
@@ -99,7 +100,7 @@ def _coiled_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
     coils, radius = Coils(WIDTH, SHEET_HEIGHT, wraps=True), texture.curl
     # Coils gather in tufts that catch light on top and leave it dark between them.
     tufts = gaussian_filter(rng.standard_normal((SHEET_HEIGHT, WIDTH)), (9, 18), mode=("nearest", "wrap"))
-    tufts = np.clip(0.85 + 0.32 * tufts / tufts.std(), 0.35, 1.35)
+    tufts = np.clip(0.85 + 0.42 * tufts / tufts.std(), 0.22, 1.5)
     for layer, count in enumerate((1100, 1000, 800)):
         for _ in range(count):
             start = rng.uniform(0, WIDTH), rng.uniform(-20, SHEET_HEIGHT)
@@ -180,7 +181,5 @@ def stored(light: np.ndarray) -> np.ndarray:
 def _shades(look: Look) -> np.ndarray:
     """Linear colours (TONES, 3) from the depth between locks to the lightest strand."""
     hair, level = np.array(look.hair), np.linspace(0, 1, TONES)[:, None]
-    light = lightest(look)
-    return linear(
-        np.where(level < 0.5, hair * (0.28 + 1.44 * level), hair + (light - hair) * (level - 0.5) * 2)
-    )
+    dark, light = hair * (0.28 + 1.44 * level), hair + (lightest(look) - hair) * (2 * level - 1)
+    return linear(np.where(level < 0.5, dark, light))

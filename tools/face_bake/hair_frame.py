@@ -18,7 +18,11 @@ CENTRE = np.array([0.0, 7.55, 0.5])
 # Skin whose surface carries hair or keeps it away: everything above the collar bones.
 LOWEST = 5.4
 TENT_AZIMUTHS, TENT_HEIGHTS = np.arange(0.0, 360.0, 4.0), np.arange(5.7, 8.0, 0.04)
-TENT_SLOPE, OFF_EARS = 0.32, 0.035
+# Hair within this distance of the base head, dm, keeps it from a person's.
+NEAR = 0.16
+# and none comes nearer to the skin.
+ABOVE_SKIN = 0.010
+TENT_SLOPE, OFF_EARS = 0.30, 0.030
 
 
 def direction(azimuth, elevation) -> np.ndarray:
@@ -51,7 +55,8 @@ class Skull:
         self._whole = trimesh.Trimesh(points, self.triangles, process=False)
         self._bare = trimesh.Trimesh(points, bare, process=False)
         self.bare = np.unique(bare)
-        self.normals = vertex_normals(points, self.triangles)
+        self.bare_triangles = bare
+        self.normals = vertex_normals(points, bare)
 
     def radius(self, directions: np.ndarray) -> np.ndarray:
         """Distance (...) from the centre to the head without ears along unit vectors (..., 3)."""
@@ -70,14 +75,13 @@ class Skull:
         fall = np.abs(TENT_HEIGHTS[:, None] - TENT_HEIGHTS)
         hill = (girth[None] - TENT_SLOPE * turn[..., None]).max(1)
         hill = (hill[:, None] - TENT_SLOPE * fall[None]).max(2)
-        return gaussian_filter(hill, (2, 3), mode=("wrap", "nearest")) + OFF_EARS
+        return gaussian_filter(hill, (2, 4), mode=("wrap", "nearest")) + OFF_EARS
 
     def tent(self, azimuth: np.ndarray, height: np.ndarray) -> np.ndarray:
         """The tent (...) at degrees and heights on the base head."""
         i = np.asarray(azimuth) % 360 / TENT_AZIMUTHS[1]
-        j = (np.clip(height, TENT_HEIGHTS[0], TENT_HEIGHTS[-1]) - TENT_HEIGHTS[0]) / (
-            TENT_HEIGHTS[1] - TENT_HEIGHTS[0]
-        )
+        low, high = TENT_HEIGHTS[[0, -1]]
+        j = (np.clip(height, low, high) - low) / (TENT_HEIGHTS[1] - low)
         return map_coordinates(self._tent, [i, j], order=1, mode="grid-wrap")
 
     @staticmethod
@@ -101,7 +105,7 @@ class Fitting:
         used = skull.bare
         self._base, self._rest = skull.points[used], rest[used]
         self._base_normals = skull.normals[used]
-        self._rest_normals = vertex_normals(rest, skull.triangles)[used]
+        self._rest_normals = vertex_normals(rest, skull.bare_triangles)[used]
         self._base_tree, self._rest_tree = cKDTree(self._base), cKDTree(self._rest)
 
     def __call__(self, points: np.ndarray) -> np.ndarray:
@@ -112,12 +116,12 @@ class Fitting:
         shift = (self._rest - self._base)[index]
         moved = flat + (weight[..., None] * shift).sum(1) / weight.sum(1)[:, None]
         wanted = _clearance(flat, self._base_tree, self._base, self._base_normals)[0]
+        wanted = np.maximum(wanted, ABOVE_SKIN)
         for _ in range(3):
             found, normal = _clearance(moved, self._rest_tree, self._rest, self._rest_normals)
-            share = np.clip((0.30 - wanted) / 0.2, 0, 1)
-            # Hair that stands off may change a little; what would sink into the skin may not.
-            short = np.where(found < wanted, wanted - found, (wanted - found) * share)
-            moved = moved + np.where(wanted < 0.3, short, 0)[:, None] * normal
+            # Hair that stands off keeps its own shape; what lies on the skin keeps its distance from it.
+            share = np.clip((NEAR - wanted) / (0.5 * NEAR), 0, 1)
+            moved = moved + ((wanted - found) * share)[:, None] * normal
         return moved.reshape(points.shape)
 
 

@@ -17,10 +17,8 @@ class LockValues:
         counts = _shared_out([row.share for row in rows], count)
         names = ("c", "t", "reach", "root_lift", "tip_lift", "width", "drift", "wave", "roll", "fall")
         for name in names:
-            drawn = [
-                _spread(getattr(row, name), n, rng, even=name == "c")
-                for row, n in zip(rows, counts, strict=True)
-            ]
+            limits = [getattr(row, name) for row in rows]
+            drawn = [_spread(pair, n, rng, even=name == "c") for pair, n in zip(limits, counts, strict=True)]
             setattr(self, name, np.concatenate(drawn))
         self.phase = rng.uniform(0, 2 * np.pi, count)
 

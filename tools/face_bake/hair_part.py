@@ -7,10 +7,10 @@ import numpy as np
 
 from .finemesh import FineMesh
 from .hair_atlas import SHEET_REPEATS, SHEET_ROWS, tile_box
+from .hair_cuts import STYLES
 from .hair_frame import Fitting, Skull
 from .hair_locks import PAIRS, LockValues, place_locks
 from .hair_shell import COLUMNS, ROWS, Sheet
-from .hair_styles import STYLES
 from .parts import PartGroup, Posed
 from .source import Source, mask_at
 

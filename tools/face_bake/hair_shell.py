@@ -12,10 +12,10 @@ COLUMNS, ROWS = 44, 14
 FINER = 4
 STEPS = 72
 ON_SKULL = 44
-# What a head of coils is grown around.
-BALL_CENTRE = np.array([0.0, 7.80, 0.42])
+# What a head of coils is grown around, and how much narrower than a ball it is.
+BALL_CENTRE, BALL_SHAPE = np.array([0.0, 7.80, 0.45]), np.array([1.10, 0.97, 1.03])
 # A hanging sheet may draw in by so much for each decimetre that it falls.
-DRAW_IN = 0.16
+DRAW_IN = 0.10
 # Above this height no ear reaches.
 TENT_TOP = 7.9
 
@@ -87,9 +87,8 @@ class Sheet:
             step = np.abs(y[:, k] - (start[:, 1] if k == 0 else y[:, k - 1]))
             rho = np.maximum(skull.tent(azimuth[:, k], y[:, k]), rho - DRAW_IN * step)
             result[:, k] = rho
-        result = gaussian_filter1d(
-            gaussian_filter1d(result, 2.0, axis=0, mode="nearest"), 1.5, axis=1, mode="nearest"
-        )
+        for axis, width in ((0, 2.0), (1, 1.5)):
+            result = gaussian_filter1d(result, width, axis=axis, mode="nearest")
         result = result - self.style.under * fall**3
         a = np.radians(azimuth)
         return np.stack([result * np.sin(a), y, result * np.cos(a) + CENTRE[2]], -1)
@@ -121,7 +120,9 @@ class Sheet:
         lumps = noise.layered(around + 3.1, frequency, 3) * smoothstep(0.03, 0.35, t)
         full = np.repeat(self._key["full"][:, None], t.shape[1], 1)
         if self.style.ball:
-            full = np.maximum(self.style.ball - np.linalg.norm(base - BALL_CENTRE, axis=-1), 0.08)
+            full = np.maximum(
+                self.style.ball - np.linalg.norm((base - BALL_CENTRE) * BALL_SHAPE, axis=-1), 0.08
+            )
         azimuth = self._key["azimuth"] % 360
         start = np.interp(np.minimum(azimuth, 360 - azimuth), *zip(*self.style.taper, strict=True))[:, None]
         thinning = 1 - 0.92 * np.clip((t - start) / (1.0001 - start), 0, 1)

@@ -49,7 +49,7 @@ class Coils:
         self._wraps = wraps
 
     def coil(self, start, step, radii, turns: float, tone: float, width: float, rng: np.random.Generator):
-        """A helix seen from the side: start, step (over its whole length) and radii in pixels, (x, y) each."""
+        """A helix from the side: start, step (over its whole length) and radii in pixels, (x, y) each."""
         phase, lit = rng.uniform(0, 2 * np.pi, 2)
         angle = np.linspace(0, 2 * np.pi * turns, max(int(turns * 9), 4)) + phase
         along = (angle - phase) / (2 * np.pi * turns)
@@ -57,7 +57,7 @@ class Coils:
         y = (start[1] + step[1] * along + radii[1] * np.sin(angle)) * LARGER
         # The near half of each turn catches light, the far half lies in its shadow.
         level = np.clip(tone * (0.62 + 0.38 * np.sin(angle + lit)), 0, 1)
-        wide = max(int(round(width * LARGER)), 1)
+        wide = max(round(width * LARGER), 1)
         for k in range(len(x) - 1):
             for shift in self._copies(x[k]):
                 line = [(x[k] + shift, y[k]), (x[k + 1] + shift, y[k + 1])]

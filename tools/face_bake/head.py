@@ -15,7 +15,7 @@ from .parts import Group, Part, Posed, stacked
 from .parts_eyes import Eye
 from .parts_eyes_ball import EYE_VERTICES, Eyeballs, LookUnits
 from .parts_eyes_rings import LidRings
-from .parts_eyes_wet import Caruncles, Tears
+from .parts_eyes_wet import Tears
 from .parts_skin import SkinPart
 from .parts_teeth import Teeth
 from .parts_tongue import Tongue
@@ -64,7 +64,6 @@ class Head:
             Eye(0),
             Eye(1),
             Tears(self.cage, self.lids, self.source.base),
-            Caruncles(self.cage, self.lids, self.source.base),
             Teeth(upper=True),
             Teeth(upper=False),
             Tongue(),
@@ -92,7 +91,11 @@ class Body:
         self._origin = np.array([0, height, self.neutral[EYE_JOINTS].mean(0)[2]])
 
     def posed(self, shape: np.ndarray) -> Posed:
-        return Posed(self, shape)
+        lifted = shape.copy()
+        for grid in (grid for grids in self.head.lids.lashes for grid in grids):
+            roots = shape[grid[0]]
+            lifted[grid] += self.eyes.push_out(roots, self.neutral[grid[0]], True, shape) - roots
+        return Posed(self, lifted)
 
     def fine_skin(self, shape: np.ndarray) -> np.ndarray:
         """All fine skin vertices in base-mesh space."""

@@ -101,7 +101,7 @@ class Eyeballs:
         degrees = np.degrees(np.arccos(np.clip(ray @ rotation[:, 2] / distance, -1, 1)))
         return distance, self.radius(side) * cornea_height(degrees)
 
-    def push_out(self, points: np.ndarray, rest: np.ndarray, on_head: np.ndarray, shape) -> np.ndarray:
+    def push_out(self, points: np.ndarray, rest: np.ndarray, on_head: np.ndarray | bool, shape) -> np.ndarray:
         """Keep skin (n, 3) outside the balls; `rest` is where it is in the neutral, `on_head` its outside.
 
         What lies within the ball at rest, the lids' inner side, goes no deeper; what lies outside stays

@@ -11,23 +11,36 @@ from .source import BaseMesh, Source
 from .strips import grid_of
 
 BLINK, BLINK_SIDES = "eyeBlink", ("eyeBlinkLeft", "eyeBlinkRight")
-LASH_STRIPS = {"upper": "helper-{side}-eyelashes-2", "lower": "helper-{side}-eyelashes-1"}
+LASH_STRIPS = ("helper-{side}-eyelashes-2", "helper-{side}-eyelashes-1")
 # The closed upper lid laps over the lower one by so much, in decimetres.
-OVERLAP = 0.006
+OVERLAP = 0.009
 # Beyond these the offsets would not be a blink any more.
 LEAST, MOST = 0.2, 1.4
 
+# What MakeHuman's look units lack: lids go with the eye, so much of another unit for each of theirs.
+FOLLOW = {"eyeLookUp": ("eyeWide", 0.45), "eyeLookDown": (BLINK, 0.13)}
 
-def lid_rows(base: BaseMesh, side: int) -> tuple[np.ndarray, np.ndarray]:
-    """Base-mesh vertices along the edges of the upper and of the lower lid, where the lashes grow."""
-    centre = base.points[EYE_VERTICES[side]].mean(0)
-    rows = []
-    for name in LASH_STRIPS.values():
+
+def with_lids(recipe: dict) -> dict:
+    """A recipe whose lids follow the eyes that it turns up or down."""
+    full = dict(recipe)
+    for term, weight in recipe.items():
+        for look, (unit, share) in FOLLOW.items():
+            if term.startswith(f"arkit:{look}"):
+                moved = f"arkit:{unit}{term.removeprefix(f'arkit:{look}')}"
+                full[moved] = full.get(moved, 0.0) + share * weight
+    return full
+
+
+def lash_grids(base: BaseMesh, side: int) -> list[np.ndarray]:
+    """Base-mesh vertices (rows, columns) of the upper and the lower lashes of a side; roots first."""
+    centre, grids = base.points[EYE_VERTICES[side]].mean(0), []
+    for name in LASH_STRIPS:
         grid = grid_of(base.faces[name.format(side="lr"[side])])
         reach = np.linalg.norm(base.points[grid] - centre, axis=-1).mean(1)
-        row = grid[0] if reach[0] < reach[-1] else grid[-1]
-        rows.append(row[np.argsort(base.points[row, 0])])
-    return rows[0], rows[1]
+        grid = grid if reach[0] < reach[-1] else grid[::-1]
+        grids.append(grid[:, np.argsort(base.points[grid[0], 0])])
+    return grids
 
 
 class BlinkFit:
@@ -35,7 +48,7 @@ class BlinkFit:
 
     def __init__(self, source: Source):
         self._moves = [source.arkit(name) for name in BLINK_SIDES]
-        self._rows = [lid_rows(source.base, side) for side in (0, 1)]
+        self._rows = [[grid[0] for grid in lash_grids(source.base, side)] for side in (0, 1)]
 
     def offsets(self, weights: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Offsets (19158, 3) of both sides' blinks, from a shape (19158, 3) with whatever else moves it."""

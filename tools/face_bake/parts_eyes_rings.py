@@ -9,25 +9,33 @@ from scipy.spatial import cKDTree
 
 from .cage import HEAD, SOCKET_A, Cage, undirected_edges
 from .parts_eyes_ball import EYE_VERTICES, SCALE, fit_sphere
-from .source import BaseMesh
+from .parts_eyes_lids import lash_grids
+from .source import BASE_VERTICES, BaseMesh
 
 RINGS = 4
 # How far above the ball each ring has to be, in decimetres, from the innermost on; None: as it is.
 THICKNESS = (None, None, 0.008, 0.015, 0.019)
+# How wet each of the first rings is.
+WET = (1.0, 1.0, 0.6)
+# Lashes grow so far above the ball at least, in decimetres.
+LASH_ROOTS = 0.0125
 # So far from the opening the skin follows, in decimetres, and after so many steps smoothly.
 REACH, SMOOTHING_STEPS = 0.065, 40
 
 
 class LidRings:
-    """columns[side]: (n, RINGS) base-mesh vertices from the lids' inner rim outwards, around the opening."""
+    """columns[side]: (n, RINGS) base-mesh vertices from the lids' inner rim outwards, around the opening.
+
+    lashes[side]: the grids of the upper and the lower lashes, the row on the lid first.
+    """
 
     def __init__(self, cage: Cage, base: BaseMesh):
         self._edges = undirected_edges(cage.faces)
         self._head = cage.faces[cage.island == HEAD]
-        socket = np.unique(cage.faces[cage.island >= SOCKET_A])
+        socket = self._socket = np.unique(cage.faces[cage.island >= SOCKET_A])
         rims = np.intersect1d(self._head, socket)
         sides = [rims[base.points[rims, 0] > 0], rims[base.points[rims, 0] < 0]]
-        self._lashes = [_lash_vertices(base, side) for side in "lr"]
+        self.lashes = [lash_grids(base, side) for side in (0, 1)]
         self._rings = [self._grown(rim, socket) for rim in sides]
         self.columns = [self._columns(rings, base.points, side) for side, rings in enumerate(self._rings)]
 
@@ -52,6 +60,15 @@ class LidRings:
             columns.append(np.array([outwards[vertex] for vertex in columns[-1].tolist()]))
         return np.stack(columns, 1)
 
+    def edges(self) -> np.ndarray:
+        """How much each base-mesh vertex (19158,) belongs to the lids' wet edges, 0..1."""
+        shares = np.zeros(BASE_VERTICES)
+        for rings in self._rings:
+            for ring, share in zip(rings, WET, strict=False):
+                shares[ring] = share
+        shares[self._socket] = 1.0
+        return shares
+
     def thickened(self, points: np.ndarray) -> np.ndarray:
         """A copy of (19158, 3) points, a neutral, whose lids stand off the balls."""
         points = points.copy()
@@ -64,6 +81,8 @@ class LidRings:
                 if least is not None:
                     lift[ring] = np.maximum(radius * SCALE + least - distance[ring], 0)
             lift = self._spread(lift, points, side)
+            for grid in self.lashes[side]:
+                lift[grid] = np.maximum(lift[grid[0]], radius * SCALE + LASH_ROOTS - distance[grid[0]])
             points += (lift / distance)[:, None] * away
         return points
 
@@ -79,10 +98,6 @@ class LidRings:
             mean = np.bincount(here, lift[there], minlength=len(points)) / count
             lift[free] = mean[free]
         edge = np.concatenate(self._rings[side][2:4])
-        lashes = self._lashes[side]
-        lift[lashes] = lift[edge][cKDTree(points[edge]).query(points[lashes])[1]]
+        for grid in self.lashes[side]:
+            lift[grid[0]] = lift[edge][cKDTree(points[edge]).query(points[grid[0]])[1]]
         return lift
-
-
-def _lash_vertices(base: BaseMesh, side: str) -> np.ndarray:
-    return np.unique([*base.faces[f"helper-{side}-eyelashes-1"], *base.faces[f"helper-{side}-eyelashes-2"]])

@@ -1,11 +1,11 @@
-"""What is wet between lids and ball: the line of tears on the lower lid, the caruncle in the inner corner."""
+"""The line of tears between each lower lid and its eyeball."""
 
 import numpy as np
 
 from .cage import Cage
 from .parts import PartGroup, Posed
 from .parts_eyes_rings import LidRings
-from .polygons import NONE, shifted
+from .polygons import shifted
 from .source import BaseMesh
 from .strips import catmull_rom
 
@@ -15,9 +15,6 @@ FINER, WIDTH = 2, 0.0042
 ACROSS = ((1.0, 0.0), (0.26, 0.24), (0.0, 0.85))
 # Just above what it lies on.
 LIFT = 0.0004
-# The caruncle: half sizes along the lids, upright and outwards in decimetres, and its rings of vertices.
-CARUNCLE = np.array([0.0195, 0.0105, 0.0065])
-CARUNCLE_RINGS, CARUNCLE_SIDES = (28, 58, 90), 10
 
 
 class Tears:
@@ -79,38 +76,6 @@ class Tears:
         return start + share * (end - start), _unit(end - start)
 
 
-class Caruncles:
-    """A small pink mound in the inner corner of each eye."""
-
-    uv = np.array([[0.5, 0.5]])
-
-    def __init__(self, cage: Cage, rings: LidRings, base: BaseMesh):
-        self._dome, polygons = _dome()
-        self._corners = [self._corner(cage, rings, base, side) for side in (0, 1)]
-        both = [shifted(polygons, first) for first in (0, len(self._dome))]
-        self.groups = [PartGroup.of_one_uv("caruncles", "caruncle", np.concatenate(both))]
-
-    @staticmethod
-    def _corner(cage: Cage, rings: LidRings, base: BaseMesh, side: int) -> np.ndarray:
-        """The fine vertices around the corner of the opening next to the nose."""
-        columns = rings.columns[side]
-        order = np.argsort(np.abs(base.points[columns[:, 0], 0]), kind="stable")
-        return np.searchsorted(np.unique(cage.faces), columns[order[:5], 1])
-
-    def place(self, posed: Posed) -> np.ndarray:
-        return np.concatenate([self._mound(posed, side) for side in (0, 1)])
-
-    def _mound(self, posed: Posed, side: int) -> np.ndarray:
-        centre = posed.body.eyes.placed(side, posed.shape)[0]
-        corner = posed.skin[self._corners[side]].mean(0)
-        outwards = _unit(0.5 * _unit(corner - centre) + [0, 0, 0.5])
-        across = _unit(np.cross([0, 1.0, 0], outwards))
-        axes = np.stack([across, np.cross(outwards, across), outwards])
-        # A little towards the nose, and sunk in, so that only its flat top shows.
-        nose = [-0.004 if side == 0 else 0.004, 0.001, 0]
-        return corner + nose + (self._dome * CARUNCLE - [0, 0, 0.5 * CARUNCLE[2]]) @ axes
-
-
 def _unit(vectors: np.ndarray) -> np.ndarray:
     return vectors / np.maximum(np.linalg.norm(vectors, axis=-1, keepdims=True), 1e-12)
 
@@ -120,20 +85,3 @@ def _strip(long: int, wide: int) -> np.ndarray:
     row, column = (a.ravel() for a in np.mgrid[: long - 1, : wide - 1])
     first = row * wide + column
     return np.stack([first, first + 1, first + 1 + wide, first + wide], -1)
-
-
-def _dome() -> tuple[np.ndarray, np.ndarray]:
-    """Points of half a unit sphere around +Z, and its polygons."""
-    turn = 2 * np.pi * np.arange(CARUNCLE_SIDES) / CARUNCLE_SIDES
-    points = [[[0.0, 0.0, 1.0]]]
-    for degrees in CARUNCLE_RINGS:
-        polar = np.radians(degrees)
-        ring = np.stack([np.cos(turn), np.sin(turn)], -1) * np.sin(polar)
-        points.append(np.c_[ring, np.full(CARUNCLE_SIDES, np.cos(polar))])
-    here = np.arange(CARUNCLE_SIDES)
-    after = (here + 1) % CARUNCLE_SIDES
-    polygons = [np.stack([np.zeros_like(here), 1 + here, 1 + after, np.full(CARUNCLE_SIDES, NONE)], -1)]
-    for ring in range(len(CARUNCLE_RINGS) - 1):
-        inner, outer = 1 + ring * CARUNCLE_SIDES, 1 + (ring + 1) * CARUNCLE_SIDES
-        polygons.append(np.stack([inner + here, outer + here, outer + after, inner + after], -1))
-    return np.concatenate(points), np.concatenate(polygons)

@@ -5,9 +5,9 @@ import numpy as np
 from .dentition import MILLIMETRE, ToothPlace, on_crown
 from .mouth_fit import Arch
 
-# Across a tooth; its inner border is shared with its neighbour, where a papilla fills the gap.
-COLUMNS = np.array([-1.0, -0.5, 0.0, 0.5])
-MARGIN, PAPILLA = (0.15, 0.10), 0.46
+TEETH, MOLARS = 14, 2
+FRONT_COLUMNS, MOLAR_COLUMNS = (-1.0, -0.75, -0.25, 0.25, 0.75), (-1.0, -0.4, 0.4)
+MARGIN, PAPILLA = ((0.25, 0.75), (0.10, 0.17)), 0.43
 ROWS = 7
 # Away from the neck and outwards (millimetres) of the rows above the margin, at a tooth and between two.
 BULGE, ROOT, FLANGE = (1.5, 0.75, 0.25), (5.0, 0.5, -0.35), (10.5, -1.4, -1.8)
@@ -16,12 +16,21 @@ LINGUAL_LOWER = (8.0, -0.8)
 PALATE_ROWS, PALATE_COLUMNS = 9, 9
 
 
+def _columns_of(tooth: int) -> tuple[float, ...]:
+    """Across a tooth (0..13); the right one is shared with its neighbour, where a papilla fills the gap."""
+    return MOLAR_COLUMNS if min(tooth, TEETH - 1 - tooth) < MOLARS else FRONT_COLUMNS
+
+
+def gum_columns() -> int:
+    return sum(len(_columns_of(k)) for k in range(TEETH)) + 1
+
+
 def gum_points(teeth: list[ToothPlace], arch: Arch, upper: bool) -> np.ndarray:
     """Points (ROWS * columns, 3): from lip or cheek over the margins to the tongue's side."""
     columns = []
     for k, tooth in enumerate(teeth):
         inner = -1.0 if k >= len(teeth) // 2 else 1.0
-        for place in COLUMNS:
+        for place in _columns_of(k):
             neighbour = teeth[k - 1] if place == -1 and k > 0 else None
             columns.append(_column(tooth, neighbour, -inner * place, upper))
     last = teeth[-1]
@@ -41,7 +50,7 @@ def _column(tooth: ToothPlace, neighbour: ToothPlace | None, across: float, uppe
 
 def _own_column(tooth: ToothPlace, across: float, upper: bool) -> np.ndarray:
     between = abs(across) == 1
-    height = PAPILLA if between else np.interp(abs(across), [0, 0.5], MARGIN[::-1])
+    height = PAPILLA if between else np.interp(abs(across), *MARGIN)
     neck = on_crown(tooth, 0.93 * across, 0.06, ahead=True)
     outwards, away = (axis / np.linalg.norm(axis) * MILLIMETRE for axis in (tooth.out, -tooth.up))
     rows = [
@@ -78,8 +87,10 @@ def palate_points(arch: Arch) -> np.ndarray:
     z = arch.front - 0.09 - 0.50 * back + 0 * across
     half = (arch.half_width_at(z) - 0.085).clip(0.05)
     vault = 0.125 * np.clip(back / 0.35, 0, 1) ** 0.6 * (1 - across**2) ** 0.75
+    # The soft palate hangs down in an arch on two pillars, with the uvula in its middle.
     soft = np.clip((back - 0.72) / 0.28, 0, 1) ** 1.6
-    roof = arch.edge_at(z) + 0.135 + vault - soft * (0.19 + 0.02 * np.cos(np.pi * across))
+    hangs = 0.12 + 0.30 * np.abs(across) ** 3.5 + 0.035 * (across == 0) * (back == 1)
+    roof = arch.edge_at(z) + 0.135 + vault - soft * hangs
     return np.stack([across * half, roof, z], -1).reshape(-1, 3)
 
 

@@ -8,18 +8,17 @@ from .dentition import crowns, placed, sides
 from .mouth_fit import MouthFit
 from .parts import PartGroup, Posed
 from .parts_gums import (
-    COLUMNS,
     PALATE_COLUMNS,
     PALATE_ROWS,
     ROWS,
+    TEETH,
+    gum_columns,
     gum_points,
     gum_polygons,
     palate_points,
     palate_polygons,
 )
 from .polygons import NONE, shifted
-
-TEETH = 14
 
 
 class Teeth:
@@ -53,7 +52,7 @@ class Teeth:
         return np.concatenate(polygons), np.concatenate(uv_polygons), np.concatenate(uv)
 
     def _gums(self) -> tuple[np.ndarray, np.ndarray]:
-        columns = TEETH * len(COLUMNS) + 1
+        columns = gum_columns()
         across = np.linspace(0, 1, columns)
         uv = np.stack(np.broadcast_arrays(across, np.linspace(1, 0.4, ROWS)[:, None]), -1).reshape(-1, 2)
         polygons = gum_polygons(columns, reverse=self._upper)

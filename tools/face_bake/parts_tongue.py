@@ -21,7 +21,7 @@ RINGS = 15
 # The middle line at fractions of its length: up from the lower teeth's edge and forward from their front.
 FRACTIONS = np.array([0, 0.25, 0.5, 0.72, 0.88, 1.0])
 AT_REST = np.array(
-    [[-0.10, -0.66], [0.005, -0.50], [-0.030, -0.34], [-0.064, -0.215], [-0.072, -0.14], [-0.075, -0.095]]
+    [[-0.18, -0.64], [-0.075, -0.50], [-0.060, -0.34], [-0.072, -0.215], [-0.074, -0.14], [-0.075, -0.095]]
 )
 OUT = np.array([[-0.10, -0.64], [0.01, -0.42], [0.012, -0.17], [0.030, 0.02], [0.024, 0.15], [-0.006, 0.235]])
 # Half as thick, along the line: at rest and out. The last ring is rounded off into the tip.

@@ -15,7 +15,8 @@ REST_OF_MEN = {
     "arkit:browInnerUp": 0.12,
     "mh:eyebrows-up": 0.16,
     "mh:eyebrows-extern-up": 0.18,
-    "mh:eye-opened-up": 0.20,
+    "mh:eye-opened-up": 0.35,
+    "arkit:eyeWide": 0.22,
 }
 
 
@@ -93,6 +94,7 @@ ADA = Person(
         "chin/chin-triangle": 0.3,
         "forehead/forehead-scale-vert-decr": 0.2,
     },
+    rest={**REST, "arkit:eyeWide": -0.12},
 )
 BEN = Person(
     "ben",
@@ -180,8 +182,8 @@ KOFI = Person(
         lid=(0.88, 0.84, 0.82),
         stubble=0.35,
     ),
-    {"mouth/mouth-angles-up": 0.25},
-    rest=REST_OF_MEN,
+    {"mouth/mouth-angles-up": 0.35},
+    rest={**REST_OF_MEN, "sculpt:browInner": 0.16},
 )
 ZOLA = Person(
     "zola",
@@ -211,6 +213,7 @@ ZOLA = Person(
         "chin/chin-height-incr": 0.2,
         "forehead/forehead-scale-vert-decr": 0.15,
     },
+    rest={**REST, "arkit:eyeWide": -0.25},
 )
 OMAR = Person(
     "omar",

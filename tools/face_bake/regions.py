@@ -18,7 +18,6 @@ PARTS = {
     "eye_L": "eyes",
     "eye_R": "eyes",
     "tears": "eyes",
-    "caruncles": "eyes",
     "teeth_lower": "jaw",
     "tongue": "jaw",
     "lashes": "eyes",

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .jaw import OPENING, Jaw
-from .parts_eyes_lids import BLINK, BLINK_SIDES, BlinkFit
+from .parts_eyes_lids import BLINK, BLINK_SIDES, BlinkFit, with_lids
 from .parts_eyes_rings import LidRings
 from .people import Person
 from .phenotype import body_offsets
@@ -30,7 +30,7 @@ class Shaper:
         """Sum of a recipe's units, see recipes.py; a blink closes what the others leave open."""
         total = np.zeros_like(self._source.base.points)
         blinks = np.zeros(2)
-        for term, weight in recipe.items():
+        for term, weight in with_lids(recipe).items():
             kind, name = term.split(":", 1)
             if self._blink is not None and name.startswith(BLINK):
                 blinks += weight * np.array([side.startswith(name) for side in BLINK_SIDES])

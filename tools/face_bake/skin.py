@@ -8,6 +8,7 @@ from .brows import paint_brows
 from .hair import paint_hair
 from .mouth_paint import LINING_LIGHT, paint_lining
 from .paintkit import Noise, Plane, mix, smoothstep, tint
+from .parts_eyes_lid_paint import lid_light, paint_lids
 from .people import Look
 
 RED = (1.02, 0.84, 0.81)
@@ -25,6 +26,7 @@ class Canvas:
     mouth: np.ndarray
     upper_lid: np.ndarray
     lower_lid: np.ndarray
+    lid_edge: np.ndarray
 
 
 def _spot(points, centre, radii) -> np.ndarray:
@@ -48,7 +50,7 @@ def _zones(colour, points, mottling, look: Look) -> np.ndarray:
     ):
         colour = tint(colour, amount * _spot(points, centre, radii), factor)
     lid = Plane(0, 0.7, 7.0, 7.7, 400, blur=0.03).ellipse((0.135, 7.435), (0.50, 7.20)).sampler()
-    return tint(colour, 0.55 * lid(np.abs(points[:, 0]), points[:, 1]) * (points[:, 2] > 1.1), look.lid)
+    return tint(colour, 0.25 * lid(np.abs(points[:, 0]), points[:, 1]) * (points[:, 2] > 1.1), look.lid)
 
 
 def _lips(colour, canvas: Canvas, mottling, noise: Noise, look: Look) -> np.ndarray:
@@ -83,12 +85,6 @@ def _stubble(colour, canvas: Canvas, noise: Noise, look: Look) -> np.ndarray:
     return colour * (1 - dark[:, None] * np.array([0.72, 0.68, 0.58], np.float32))
 
 
-def _lid_lines(colour, canvas: Canvas, look: Look) -> np.ndarray:
-    strength = 0.75 if look.feminine else 0.45
-    colour = tint(colour, strength * smoothstep(0.030, 0.004, canvas.upper_lid), (0.22, 0.17, 0.16))
-    return tint(colour, 0.6 * strength * smoothstep(0.020, 0.003, canvas.lower_lid), (0.45, 0.34, 0.32))
-
-
 def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> np.ndarray:
     """sRGB colours (p, 3); `light` (p,) is the baked occlusion."""
     noise, points = Noise(seed), canvas.points
@@ -103,9 +99,9 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, seed: int = 1) -> 
     colour = _stubble(colour, canvas, noise, look)
     colour = paint_brows(colour, points, look)
     colour = paint_hair(colour, points, canvas.ears, noise, look)
-    colour = _lid_lines(colour, canvas, look)
+    colour = paint_lids(colour, canvas.lid_edge, canvas.upper_lid, canvas.lower_lid, look)
     colour = paint_lining(colour, canvas, mottling, look)
-    light = np.clip(light * 1.12, 0, 1)
+    light = lid_light(np.clip(light * 1.12, 0, 1), canvas.lid_edge, canvas.upper_lid, canvas.lower_lid)
     # The neutral's closed mouth is dark on the lips' inner sides; an open one is not.
     light = np.where(canvas.mouth > 0, LINING_LIGHT, np.maximum(light, LIP_LIGHT * canvas.lips))
     # Shade in skin is warm: red light travels further through it.

@@ -8,6 +8,7 @@ from .cage import HEAD, MOUTH
 from .hair import growth
 from .head import Body, Head
 from .occlusion import visible_sky
+from .paintkit import smoothstep
 from .raster import Raster
 from .skin import Canvas, paint_skin
 from .source import mask_at
@@ -34,10 +35,9 @@ class Painter:
         upper, lower = (self._lid_distance(points, upper) for upper in (True, False))
         lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 1.3, source_uv) * 1.25 - 0.12, 0, 1)
         ears = mask_at(head.source.mask("mpfb_ears.jpg"), 3, source_uv)
-        outside = island == HEAD
-        self._canvas = Canvas(
-            points, lips * outside, ears * outside, (island == MOUTH).astype(np.float32), upper, lower
-        )
+        lid_edge = self._raster.sample(fine.operator @ head.lids.edges(), self._triangles)
+        outside, mouth = island == HEAD, (island == MOUTH).astype(np.float32)
+        self._canvas = Canvas(points, lips * outside, ears * outside, mouth, upper, lower, lid_edge)
 
     def _lid_distance(self, points: np.ndarray, upper: bool) -> np.ndarray:
         """Distance (p,) to the edge of the upper or lower lids; only measured near the eyes."""
@@ -59,6 +59,6 @@ class Painter:
         skin = body.fine_skin(neutral)
         light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
         # Roots are painted dark already: shaded once more they would be black between the strands.
-        light = np.maximum(light, ROOT_LIGHT * (growth(self._base, body.person.look) > 0))
+        light = np.maximum(light, ROOT_LIGHT * smoothstep(3, 12, growth(self._base, body.person.look)))
         colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
         return Image.fromarray(self._raster.picture(colours))

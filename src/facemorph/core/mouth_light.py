@@ -16,7 +16,7 @@ import numpy as np
 from facemorph.core.arrays import Float64
 
 APERTURE = 8
-DIM, BOUNCE, INTERREFLECTION, PENUMBRA, FRONT = 0.05, 0.30, 0.56, 0.40, 0.12
+DIM, BOUNCE, INTERREFLECTION, PENUMBRA, FRONT = 0.07, 0.42, 0.56, 0.40, 0.12
 
 
 @dataclass(frozen=True, eq=False)

@@ -26,7 +26,7 @@ _PICTURE_TOLERANCE = 2e-3
 _LIMBUS_AHEAD = 2.2998
 _BALL_RADIUS = 2.5078
 # Lids are looked for this far around the line of sight, so near the ball, in its radii, and so often.
-_AROUND, _NEAREST, _FARTHEST, _STATIONS = 0.86, 1.012, 1.13, 11
+_AROUND, _NEAREST, _FARTHEST, _STATIONS = 0.95, 1.012, 1.13, 13
 _FEWEST = 5
 
 
@@ -152,7 +152,7 @@ def _lids(skin: Float64, limbus: Float64) -> tuple[Int64, Int64] | None:
     centre = limbus.mean(0) - forward * (radius / _BALL_RADIUS * _LIMBUS_AHEAD)
     off = (skin - centre) / max(radius, 1e-12)
     distance = np.linalg.norm(off, axis=1)
-    near = (distance > _NEAREST) & (distance < _FARTHEST) & (off @ forward > 0.3) & (abs(off[:, 0]) < _AROUND)
+    near = (distance > _NEAREST) & (distance < _FARTHEST) & (off @ forward > 0.2) & (abs(off[:, 0]) < _AROUND)
     station = np.floor((off[:, 0] / _AROUND + 1.0) / 2.0 * _STATIONS)
     edges: list[list[int]] = [[], []]
     for k in range(_STATIONS):

@@ -61,7 +61,6 @@ TEAR = Finish(
     shader="tear.frag",
     by_pixel=True,
 )
-CARUNCLE = Finish(wrap=(0.42, 0.24, 0.20), gloss=0.35, sharpness=60.0, sheen=0.0)
 TEETH = Finish(
     wrap=(0.60, 0.54, 0.47),
     gloss=0.30,
@@ -74,25 +73,28 @@ TEETH = Finish(
 )
 GUM = Finish(
     wrap=(0.40, 0.22, 0.20),
-    gloss=0.22,
-    sharpness=70.0,
+    gloss=0.12,
+    sharpness=55.0,
     sheen=0.0,
     catches=True,
     shader="mouth.frag",
     by_pixel=True,
 )
-TONGUE = replace(GUM, gloss=0.16, sharpness=34.0)
-MOUTH = replace(GUM, gloss=0.08, sharpness=30.0, spill=0.5)
+TONGUE = replace(GUM, gloss=0.10, sharpness=30.0)
+MOUTH = replace(GUM, gloss=0.05, sharpness=45.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
 HAIR = Finish(
-    wrap=(0.36, 0.30, 0.26), gloss=1.0, sharpness=70.0, sheen=0.9, shader="hair.frag", by_pixel=True
+    wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag", by_pixel=True
+)
+BROW = Finish(
+    wrap=(0.36, 0.30, 0.26), gloss=0.15, sharpness=20.0, sheen=0.0, shader="hair.frag", by_pixel=True
 )
 CLAY = Finish(wrap=(0.22, 0.20, 0.18), gloss=0.05, sharpness=18.0, sheen=1.0)
 
 # A name contains the word; the first that fits is taken, so "eyelash" is a lash and no eye.
 _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("lash", LASH),
-    ("brow", LASH),
+    ("brow", BROW),
     ("hair", HAIR),
     ("teeth", TEETH),
     ("tooth", TEETH),
@@ -101,7 +103,6 @@ _BY_WORD: tuple[tuple[str, Finish], ...] = (
     ("palate", GUM),
     ("mouth", MOUTH),
     ("tear", TEAR),
-    ("caruncle", CARUNCLE),
     ("eye", EYE),
     ("cornea", EYE),
     ("sclera", EYE),
@@ -127,6 +128,7 @@ _STAND_INS: Mapping[Finish, Colour] = MappingProxyType(
         GUM: (0.40, 0.13, 0.12),
         MOUTH: (0.26, 0.06, 0.055),
         LASH: (0.010, 0.008, 0.007),
+        BROW: (0.020, 0.013, 0.009),
         HAIR: (0.020, 0.013, 0.009),
     }
 )

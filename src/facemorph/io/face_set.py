@@ -36,6 +36,8 @@ HINTS: Mapping[str, str] = MappingProxyType(
 _AT_ONCE = 2
 _LINE_END = 1_024
 _COMPARED_BYTES = 1 << 16
+# Blocks of faces that are remembered: the neutral's, and one as its shapes write them.
+_MOST_KNOWN = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,41 +126,48 @@ def _parsed(neutral: Path, shapes: Mapping[str, Path], progress: Progress) -> tu
 
 
 class _Neutral:
-    """A neutral that shapes are read for; faces that are written just as its own are not read again."""
+    """A neutral that shapes are read for; faces that are written as in a file before are not read again."""
 
     def __init__(self, path: Path) -> None:
-        self._faces = b""
+        self._faces: list[bytes] = []
         if path.suffix.lower() != ".obj":
             self.file = ObjFile(read_mesh(path), ())
             return
         data = read_bytes(path)
         self.file = parse_obj(path, data)
         if self.file.faces_from is not None:
-            self._faces = data[self.file.faces_from :]
+            self._faces.append(data[self.file.faces_from :])
 
     def positions_of(self, name: str, path: Path) -> Float32:
         """The positions (V, 3) of a shape. Raises `CorrespondenceError` where they are not the neutral's."""
         positions = self._before_faces(path)
         if positions is not None and len(positions) == self.file.mesh.vertex_count:
             return positions
-        mesh = read_mesh(path)
+        mesh, faces = _read_with_faces(path)
         unlike = difference(self.file.mesh, mesh)
         if unlike is not None:
             hint = HINTS[unlike.cause].replace("FOLDER", shlex.quote(str(path.parent)))
             raise CorrespondenceError(f"{name} ({path})", unlike.problem, cause=unlike.cause, hint=hint)
+        if faces and len(self._faces) < _MOST_KNOWN:
+            self._faces.append(faces)
         return mesh.positions
 
     def _before_faces(self, path: Path) -> Float32 | None:
-        """The positions of an OBJ that ends in the neutral's faces; None where it must be read whole.
+        """The positions of an OBJ that ends in faces known as the neutral's; None to read it whole.
 
-        The neutral's block follows all of its vertices, so after as many it means the same polygons.
+        Such a block follows all of its file's vertices, so after as many it means the same polygons.
         """
-        if not self._faces or path.suffix.lower() != ".obj" or not path.is_file():
+        if path.suffix.lower() != ".obj" or not path.is_file():
             return None
+        found = (self._before(path, faces) for faces in self._faces)
+        return next((positions for positions in found if positions is not None), None)
+
+    def _before(self, path: Path, faces: bytes) -> Float32 | None:
+        """The positions in an OBJ before a block of faces that it ends in, or None."""
         try:
             with path.open("rb") as file:
-                before = os.fstat(file.fileno()).st_size - len(self._faces)
-                if not 0 < before <= MESH_BYTES or not _goes_on_with(file, before, self._faces):
+                before = os.fstat(file.fileno()).st_size - len(faces)
+                if not 0 < before <= MESH_BYTES or not _goes_on_with(file, before, faces):
                     return None
                 pieces = [parse_positions(path, piece) for piece in _pieces(file, before)]
         except (OSError, _OddTextError, MeshFileError):
@@ -166,6 +175,15 @@ class _Neutral:
             return None
         found = [piece for piece in pieces if piece is not None]
         return np.concatenate(found) if found and len(found) == len(pieces) else None
+
+
+def _read_with_faces(path: Path) -> tuple[Mesh, bytes]:
+    """A mesh, and of an OBJ whose faces follow all vertices, the block that they are; else nothing."""
+    if path.suffix.lower() != ".obj":
+        return read_mesh(path), b""
+    data = read_bytes(path)
+    file = parse_obj(path, data)
+    return file.mesh, b"" if file.faces_from is None else data[file.faces_from :]
 
 
 class _OddTextError(Exception):

@@ -89,6 +89,13 @@ def toggle_method(app: App, method: str) -> None:
     app.controls = replace(app.controls, off=app.controls.off ^ {method})
 
 
+def toggle_correctives(app: App) -> None:
+    """Let the face's correctives follow from its shapes, or leave them out."""
+    if app.face is not None:
+        rig = app.face.rig
+        app.face = replace(app.face, rig=replace(rig, corrected=not rig.corrected))
+
+
 def show_page(app: App, title: str) -> None:
     """Show one page of the panel on the right."""
     app.settings.right_page, app.settings.right_open, app.panels_hidden = title, True, False

@@ -130,6 +130,11 @@ VIEW = (
             help="How far each point has moved from the neutral face; once more for the skin"),
     Command("Wireframe over the face", actions.toggle_wire, "View", _keys("W"), 2, has_face,
             lambda app: app.look.wire),
+    Command("Correctives", actions.toggle_correctives, "View", (), 2,
+            lambda app: app.rig is not None and bool(app.rig.correctives),
+            lambda app: app.rig is not None and bool(app.rig.correctives) and app.rig.corrected,
+            help="Shapes between shapes that keep jaw, lids and eyes on their ways; off, every face is the "
+                 "plain sum of its shapes"),
     Command("Faces panel", actions.toggle_left, "View", (), 3, always,
             lambda app: app.settings.left_open and not app.panels_hidden),
     Command("Pages panel", actions.toggle_right, "View", (), 3, always,

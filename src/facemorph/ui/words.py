@@ -51,6 +51,8 @@ def change_words(before: Snapshot, after: Snapshot) -> str:
     """What happened between two snapshots, as `Undo` names it."""
     if before.face is not after.face:
         if before.face and after.face and before.face.rig.neutral is after.face.rig.neutral:
+            if before.face.rig.corrected != after.face.rig.corrected:
+                return "correctives on" if after.face.rig.corrected else "correctives off"
             return f"keep {after.face.rig.shapes[-1].label}"
         return f"open {after.face.title}" if after.face else "close the face"
     if before.shapes_on != after.shapes_on:

@@ -6,7 +6,8 @@ from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.facs import PROTOTYPES, TABLE_2_1, Sides, prototype, units_text
 from facemorph.core.rig import Rig, plain_label
-from facemorph.ui import actions, fonts, units
+from facemorph.ui import actions, fonts, gaze, units
+from facemorph.ui.panels import gaze_pad
 from facemorph.ui.panels.rows import Head, Row, divider, head, method_head, quiet_words, weight_row
 from facemorph.ui.panels.shapes import shape_row
 from facemorph.ui.state import App
@@ -106,6 +107,9 @@ def _units(app: App, rig: Rig) -> None:
     for number in numbers:
         if number == first_other and number != numbers[0]:
             divider(app, "Other units")
+        if number == gaze.LEFT and gaze.available(app):
+            divider(app, "Gaze")
+            gaze_pad.draw(app)
         _unit(app, rig, number)
     imgui.end_child()
 

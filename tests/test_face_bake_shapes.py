@@ -1,0 +1,108 @@
+"""The pieces of the bake that model expressions, on small meshes of their own."""
+
+from __future__ import annotations
+
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tests.conftest import ROOT
+
+TOOLS = ROOT / "tools"
+if not (TOOLS / "face_bake").is_dir():
+    pytest.skip("the bake's tools are not beside these tests", allow_module_level=True)
+sys.path.insert(0, str(TOOLS))
+
+from face_bake.creases import Creases  # noqa: E402
+from face_bake.recipes import EXPRESSIONS, FACS, arkit_recipe  # noqa: E402
+from face_bake.sculpt import signed_distance  # noqa: E402
+from face_bake.surface import CageSurface  # noqa: E402
+
+SIDE = 9
+
+
+@pytest.fixture
+def sheet() -> CageSurface:
+    """A flat sheet of 9 x 9 vertices, one apart; the body's vertices 0..9 are no part of it."""
+    faces = quads() + 10
+    points = np.concatenate([np.full((10, 3), 7.0), plane()])
+    return CageSurface(SimpleNamespace(faces=faces), points)
+
+
+def plane() -> np.ndarray:
+    across, up = np.meshgrid(np.arange(SIDE), np.arange(SIDE))
+    return np.stack([across, up, np.zeros_like(up)], -1).reshape(-1, 3).astype(float)
+
+
+def quads() -> np.ndarray:
+    here = np.arange(SIDE * SIDE).reshape(SIDE, SIDE)
+    corners = here[:-1, :-1], here[:-1, 1:], here[1:, 1:], here[1:, :-1]
+    return np.stack(corners, -1).reshape(-1, 4)
+
+
+def two_rings() -> np.ndarray:
+    """The sheet's outermost two rings of vertices."""
+    places = plane()[:, :2]
+    return np.flatnonzero((np.minimum(places, SIDE - 1 - places) < 2).any(1))
+
+
+def test_what_is_held_moves_as_told_and_the_rest_of_the_body_stays(sheet: CageSurface):
+    held = np.append(two_rings(), 40)
+    moves = np.zeros((len(held), 3))
+    moves[-1] = [0, 0, 0.5]
+    field = sheet.interpolated(held, moves)
+    assert field.shape == (91, 3)
+    assert not field[:10].any()
+    np.testing.assert_allclose(field[10:][held], moves, atol=1e-12)
+    heights = field[10:, 2].reshape(SIDE, SIDE)
+    assert np.all(np.diff(heights[4, 1:5]) > 0), "it rises evenly to the held point"
+    np.testing.assert_allclose(heights, heights[:, ::-1], atol=0.02)
+
+
+def test_a_border_that_tilts_tilts_the_inside_alike(sheet: CageSurface):
+    tilt = plane() @ np.array([[0.0, 0.0, 0.1], [0.0, 0.0, -0.2], [0.0, 0.0, 0.0]]) + [0.3, 0.0, 0.0]
+    field = sheet.interpolated(two_rings(), tilt[two_rings()])
+    np.testing.assert_allclose(field[10:], tilt, atol=1e-9)
+
+
+def test_softening_takes_a_spike_away_only_where_it_is_asked_to(sheet: CageSurface):
+    length = np.where(plane()[:, 0] < 4, 2.0, 0.0)
+    spikes = np.zeros((91, 3))
+    spikes[10 + 38, 2] = spikes[10 + 43, 2] = 1.0
+    soft = sheet.softener(length)(spikes)
+    assert abs(soft[10 + 38, 2]) < 0.4
+    assert soft[10 + 43, 2] == pytest.approx(1.0, abs=1e-3)
+    even = np.full((91, 3), 0.7)
+    np.testing.assert_allclose(sheet.softener(length)(even)[10:], 0.7, atol=0.05)
+
+
+def test_distance_to_a_line_is_positive_on_its_left_and_knows_the_place_along():
+    line = np.array([[0.0, 0.0], [0.0, 1.0], [0.0, 3.0]])
+    distance, along = signed_distance(np.array([[-0.5, 1.5], [0.25, 1.5], [0.0, 5.0]]), line)
+    np.testing.assert_allclose(distance[:2], [0.5, -0.25])
+    np.testing.assert_allclose(along, [0.5, 0.5, 1.0])
+
+
+def test_a_fold_is_counted_and_a_turned_sheet_has_none():
+    triangles = np.concatenate([quads()[:, [0, 1, 2]], quads()[:, [0, 2, 3]]])
+    flat = plane()
+    creases = Creases(flat, triangles)
+    turned = flat @ np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    assert creases.folds(turned) == 0
+    over = flat.copy()
+    over[:, 0] = np.where(flat[:, 0] > 4, 8 - flat[:, 0], flat[:, 0])
+    assert creases.folds(over) == SIDE - 1, "one edge of every row is a fold"
+
+
+def test_one_sided_shapes_are_made_of_one_sided_fields():
+    assert all(term.endswith("Left") for term in arkit_recipe("mouthSmileLeft"))
+    assert all(term.endswith("Right") for term in arkit_recipe("noseSneerRight"))
+    assert arkit_recipe("jawLeft") == {"arkit:jawLeft": 1.0}
+
+
+def test_the_smiles_of_the_recipes_raise_cheeks():
+    assert EXPRESSIONS["happy"]["sculpt:cheek"] > 0.5
+    assert FACS["AU6"][1].keys() & EXPRESSIONS["happy"].keys() >= {"sculpt:cheek"}
+    assert FACS["AU12"][1].keys() & EXPRESSIONS["happy"].keys() >= {"sculpt:smile"}

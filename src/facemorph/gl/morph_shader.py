@@ -110,6 +110,9 @@ class ShaderMorph:
         self._copies: moderngl.VertexArray | None = None
         self._position_of: moderngl.Buffer | None = None
         self.bind(surface)
+
+    def _take_programs(self) -> None:
+        """Set what a morph of another size, with which the programs are shared, has set for itself."""
         _set(
             self._sum,
             base_positions=_BASE,
@@ -141,6 +144,7 @@ class ShaderMorph:
 
         The sum is always made in full here, so `exactly` changes nothing.
         """
+        self._take_programs()
         self._start_from(offsets)
         self._list_shapes(pose)
         _set(self._sum, t=float(pose.t), curve=_CURVES[pose.curve])

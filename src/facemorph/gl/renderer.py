@@ -89,7 +89,7 @@ class Renderer:
         """
         blend = Blend(rig.neutral.positions, rig.deltas)
         forms = {level: form for level, form in self._forms.items() if form.of_file is rig.neutral}
-        forms.setdefault(0, Form.of(rig.neutral))
+        forms[0] = forms.get(0) or Form.of(rig.neutral)
         stage = Stage(self.ctx, rig, forms[0], lambda rig, surface: self._new_morph(rig, surface, blend))
         self._unload()
         self._rig, self._blend, self._forms = rig, blend, forms

@@ -22,6 +22,7 @@ from face_bake import mouth_fit  # noqa: E402
 from face_bake.dentition import ToothPlace, crowns, placed  # noqa: E402
 from face_bake.mouth_fit import CLEARANCE, LOWER_HELPER, Arch, MouthFit  # noqa: E402
 from face_bake.mouth_room import _softly  # noqa: E402
+from face_bake.parts_gums import gum_columns  # noqa: E402
 from face_bake.parts_teeth import Teeth  # noqa: E402
 from face_bake.parts_tongue import FULLY_OUT, HELPER_TIP, TONGUE_TIP, Tongue  # noqa: E402
 from face_bake.polygons import triangles_of  # noqa: E402
@@ -103,6 +104,18 @@ def test_each_tooth_is_closed_and_faces_outwards(upper: bool, neutral: np.ndarra
         size = volume(points - points[first], own)
         assert 50 * MILLIMETRE**3 < size < 1000 * MILLIMETRE**3
         first += count
+
+
+@pytest.mark.parametrize(("arch", "upper"), [(UPPER, True), (LOWER, False)])
+def test_gums_face_the_lips_in_front_and_the_tongue_behind(arch: Arch, upper: bool, neutral: np.ndarray):
+    teeth = Teeth(upper)
+    points, polygons = teeth.place(posed(neutral, neutral)), teeth.groups[1].polygons
+    strips = polygons[: 6 * (gum_columns() - 1)].reshape(6, -1, 4)
+    for row, way in ((0, 1), (1, 1), (2, 1), (5, -1)):
+        corners = points[strips[row]]
+        normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        _, out = arch.distance(corners.mean(1))
+        assert way * (normals * out).sum(1).mean() > 0
 
 
 @pytest.mark.parametrize(("arch", "upper"), [(UPPER, True), (LOWER, False)])

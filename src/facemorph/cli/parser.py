@@ -138,6 +138,12 @@ def _render(parser: Parser) -> None:
     parser.add_argument(
         "--shading", default="skin", metavar="NAME", help=f"{', '.join(SHADINGS)} (default: skin)"
     )
+    parser.add_argument(
+        "--subdivision",
+        default="0",
+        metavar="N",
+        help="smooth the surface by N levels of Catmull-Clark, 0 to 2 (default: 0, just as the file has it)",
+    )
     parser.add_argument("--background", metavar="COLOUR", help="RRGGBB in hexadecimal, or transparent")
     _output_option(parser, "PNG")
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from facemorph.core.morph import checked_curve
-from facemorph.core.picture import Look, checked_shading
+from facemorph.core.picture import Look, checked_shading, checked_subdivision
 from facemorph.core.pose import NEUTRAL, Pose, parsed_weight, state_of
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError
@@ -46,11 +47,11 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
 
 
 def look_from(options: argparse.Namespace) -> Look:
-    """The look of --shading and --background."""
-    shading = checked_shading(options.shading)
+    """The look of --shading, --subdivision and --background."""
+    look = Look(checked_shading(options.shading), subdivision=checked_subdivision(options.subdivision))
     if options.background is None:
-        return Look(shading=shading)
-    return Look(shading=shading, background=background_colour(options.background))
+        return look
+    return replace(look, background=background_colour(options.background))
 
 
 def background_colour(text: str) -> tuple[float, float, float, float]:

@@ -10,6 +10,7 @@ from facemorph.errors import OptionError
 Shading = Literal["skin", "clay", "wire", "normals", "heat"]
 SHADINGS: tuple[Shading, ...] = get_args(Shading)
 LARGEST_SIDE = 8192
+SUBDIVISIONS = (0, 1, 2)
 # What textures may be; Pillow would hand others, such as EPS, to other programs.
 PICTURE_FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP")
 
@@ -18,17 +19,19 @@ PICTURE_FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP")
 class Look:
     """How a face is drawn.
 
-    shading     skin (textured), clay (one grey), wire (clay with the polygons' edges), normals, heat
-                (distance of each vertex from neutral)
-    wire        the polygons' edges over any shading
-    background  sRGB 0..1, with alpha; alpha 0 leaves the picture transparent there
-    heat_max    distance at the heat map's red end in model units; None takes the largest in the pose
+    shading      skin (textured), clay (one grey), wire (clay with the polygons' edges), normals, heat
+                 (distance of each vertex from neutral)
+    wire         the polygons' edges over any shading
+    background   sRGB 0..1, with alpha; alpha 0 leaves the picture transparent there
+    heat_max     distance at the heat map's red end in model units; None takes the largest in the pose
+    subdivision  levels of Catmull-Clark that the surface is refined by, 0 to 2; 0 draws the file's own
     """
 
     shading: Shading = "skin"
     wire: bool = False
     background: tuple[float, float, float, float] = (0.16, 0.17, 0.19, 1.0)
     heat_max: float | None = None
+    subdivision: int = 0
 
 
 def checked_shading(name: str) -> Shading:
@@ -37,6 +40,14 @@ def checked_shading(name: str) -> Shading:
         if name == shading:
             return shading
     raise OptionError(f"no shading is called {name!r}. There are: {', '.join(SHADINGS)}.")
+
+
+def checked_subdivision(level: int | str) -> int:
+    """`level`, or the one that a text means. Raises `OptionError` naming the choices."""
+    for known in SUBDIVISIONS:
+        if level in (known, str(known)):
+            return known
+    raise OptionError(f"subdivision is {SUBDIVISIONS[0]} to {SUBDIVISIONS[-1]} levels, not {level!r}.")
 
 
 def picture_size(text: str) -> tuple[int, int]:

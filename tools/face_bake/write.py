@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .correctives import HALF_WAY, PAIRS
+from .correctives import HALF_WAY, PAIRS, half_way, together
 from .hair_atlas import hair_material
 from .head import Head
 from .lash_pictures import brow_material, lash_material
@@ -87,9 +87,9 @@ def _rules() -> list[str]:
     """Which shapes switch the correctives on."""
     lines = []
     for name in HALF_WAY:
-        lines += ["", "[[correctives]]", f'shape = "{name} half way"', f'hat = "{name}"']
+        lines += ["", "[[correctives]]", f'shape = "{half_way(name)}"', f'hat = "{name}"']
     for one, other in PAIRS:
-        lines += ["", "[[correctives]]", f'shape = "{one} and {other}"', f'product = ["{one}", "{other}"]']
+        lines += ["", "[[correctives]]", f'shape = "{together(one, other)}"', f'product = ["{one}", "{other}"]']
     return lines
 
 

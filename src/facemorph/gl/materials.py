@@ -19,13 +19,13 @@ class Finish:
     gloss      strength of the highlight, `sharpness` its exponent
     sheen      how strongly the rim light shows at grazing angles
     recess     how much light the surroundings keep away: lids from an eye, the mouth from teeth
+    relief     whether it is skin, with bumps and wrinkles: by pixel but while something moves
     catches    whether its highlight is an eye's catchlight
     shade      factor on the colour, for what lies inside the mouth
     matte      luminance of the colour below which nothing shines: hair and brows painted on skin
     shader     the fragment shader that draws it
     spill      in a mouth, how far light reaches it over the lips' edge, in half widths of the mouth
     by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
-    relief     whether it is skin, with bumps and wrinkles: by pixel but while something moves
     """
 
     wrap: Colour
@@ -35,11 +35,11 @@ class Finish:
     recess: float = 0.0
     shade: float = 1.0
     matte: float = 0.0
+    relief: bool = False
     catches: bool = False
     shader: str = "lit.frag"
     spill: float = 0.0
     by_pixel: bool = False
-    relief: bool = False
 
 
 SKIN = Finish(

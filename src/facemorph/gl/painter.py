@@ -28,7 +28,6 @@ from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
 from facemorph.gl.lights import Lights
-from facemorph.gl.lit import lit_material
 from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
 from facemorph.gl.skin_maps import skin_maps
@@ -241,8 +240,38 @@ class Painter:
         partners: Sequence[Source] = (),
         stencil: Sequence[str] = (),
     ) -> None:
-        told = lit_material(surface, finish, source, partners, scene)
-        define, own = [*told.defines, *stencil], told.uniforms
+        define = [*source.defines(), *stencil]
+        if source.texture is not None:
+            source.texture.use(OWN_UNIT)
+        own: dict[str, object] = {
+            "albedo": tuple(value * finish.shade for value in source.factor),
+            "opacity": source.opacity,
+            "wrap": finish.wrap,
+            "gloss": finish.gloss,
+            "sharpness": finish.sharpness,
+            "sheen": finish.sheen,
+            "recess": finish.recess,
+            "matte": finish.matte,
+            "spill": finish.spill,
+            "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
+        }
+        if partners:
+            define.append(f"PARTNERS {len(partners)}")
+            own["stored_colour"] = source.stored
+        for i, partner in enumerate(partners):
+            define += partner.defines(f"PARTNER{i}_")
+            # Textures of one set of coordinates are looked up at one.
+            if partner.texture is not None:
+                partner.texture.use(FIRST_PARTNER_UNIT + i)
+                if not (surface.shares_uvs(i) and source.texture is not None):
+                    define.append(f"PARTNER{i}_UV")
+            own |= {
+                f"partner{i}_stored_colour": partner.stored,
+                f"partner{i}_albedo": tuple(value * finish.shade for value in partner.factor),
+                f"partner{i}_opacity": partner.opacity,
+            }
+        if any(one.cut_out for one in (source, *partners)):
+            define.append("CUTOUT")
         if self._glowing:
             define.append("GLOW")
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.

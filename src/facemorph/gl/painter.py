@@ -8,6 +8,7 @@ moves on software OpenGL, insides that `gl.insides` finds hidden are left out.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -87,10 +88,10 @@ class Painter:
         self._glowing, self._hurried = glowing, hurried
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
         scene = {**self._scene(camera, look, size), **face}
-        if look.shading == "skin":
-            scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
+        if look.shading == "skin":
+            scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="
         solid = [part for part in surface.parts if self._opacity(part) >= 1.0]
@@ -270,6 +271,10 @@ class Painter:
                 f"partner{i}_albedo": tuple(value * finish.shade for value in partner.factor),
                 f"partner{i}_opacity": partner.opacity,
             }
+        if finish.relief:
+            finish = finish if self._hurried else replace(finish, by_pixel=True)
+            maps = skin_maps(part.material, surface.mesh, source, self.textures, scene)
+            define, own = [*define, *maps.defines], own | maps.uniforms
         if any(one.cut_out for one in (source, *partners)):
             define.append("CUTOUT")
         if self._glowing:
@@ -277,10 +282,6 @@ class Painter:
         # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
         fine = surface.mesh.vertex_count >= FINE_MESH and not finish.by_pixel
         by_vertex = self._software and fine and scene["side"] == _OUTSIDE
-        if finish.relief:
-            by_vertex = by_vertex and self._hurried
-            maps = skin_maps(part.material, surface.mesh, source, self.textures, scene)
-            define, own = [*define, *maps.defines], own | maps.uniforms
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
         self._draw(surface, part, scene, finish.shader, [*lit, *define], own)
 

@@ -19,8 +19,8 @@ out vec3 surface_light;
 out vec3 surface_half;                 // halfway between the eye and the highlight's light
 #else
 out vec3 surface_view;
-out vec3 surface_position;              // the model's space
 #endif
+out vec3 surface_position;             // the model's space
 #endif
 
 #if defined(TEXTURED) || defined(STENCILLED)
@@ -65,13 +65,13 @@ invariant gl_Position;
 void main() {
     surface_normal = normal * side;
 #ifdef LIT
+    surface_position = position;
     vec3 view = towards_camera(position);
 #ifdef LIT_BY_VERTEX
     surface_light = diffuse_light(surface_normal, view);
     surface_half = normalize(shine_direction + view);
 #else
     surface_view = view;
-    surface_position = position;
 #endif
 #endif
 #if defined(TEXTURED) || defined(STENCILLED)

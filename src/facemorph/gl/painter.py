@@ -7,12 +7,9 @@ moves on software OpenGL, insides that `gl.insides` finds hidden are left out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from types import MappingProxyType
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
@@ -29,17 +26,16 @@ from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
 from facemorph.gl.lights import Lights
-from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
+from facemorph.gl.materials import CLAY, CLAY_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
 from facemorph.gl.skin_maps import skin_maps
 from facemorph.gl.surface import Part, Surface
 from facemorph.gl.textures import Textures
+from facemorph.gl.uniforms import NOTHING_OF_FACE, Uniforms, assign, lit_uniforms, scene_uniforms
 
 if TYPE_CHECKING:
     import moderngl
 
-Uniforms = Mapping[str, object]
-NOTHING_OF_FACE: Uniforms = MappingProxyType({})
 # GL's blend factors: ONE, SRC_ALPHA and ONE_MINUS_SRC_ALPHA.
 _PREMULTIPLIED = (0x0001, 0x0303)
 _STRAIGHT = (0x0302, 0x0303)
@@ -87,7 +83,7 @@ class Painter:
         """
         self._glowing, self._hurried = glowing, hurried
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
-        scene = {**self._scene(camera, look, size), **face}
+        scene = {**scene_uniforms(camera, look, size, self._lights, self._shares), **face}
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
         if look.shading == "skin":
@@ -104,33 +100,19 @@ class Painter:
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
         clear = [part for part in surface.parts if self._opacity(part) < 1.0]
+        strips = [part for part in clear if self._stencil_of(surface, part) is not None]
+        glass = [part for part in clear if part not in strips]
         for side in (_INSIDE, _OUTSIDE):
-            self._draw_parts(surface, clear, look, scene, side)
+            self._draw_parts(surface, glass, look, scene, side)
+        # Hair covers nearly all that lies behind it: drawn first, its outside saves the work for the rest.
+        for side in (_OUTSIDE, _INSIDE):
+            seen = [part for part in strips if side == _OUTSIDE or not finish_of(part.material).one_sided]
+            self._draw_parts(surface, seen, look, scene, side)
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 
     def _opacity(self, part: Part) -> float:
         return blended_opacity((part.material, *part.partners), self._shares)
-
-    def _scene(self, camera: Camera, look: Look, size: tuple[int, int]) -> dict[str, object]:
-        """The uniforms that every part of the picture shares."""
-        matrix = camera.clip_from_model(size[0] / size[1])
-        return {
-            "clip_from_model": np.ascontiguousarray(matrix.T, np.float32).tobytes(),
-            "camera_position": tuple(float(value) for value in camera.position()),
-            "background": look.background,
-            "picture_size": (float(size[0]), float(size[1])),
-            "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
-            "ramp": 0,
-            "albedo_texture": OWN_UNIT,
-            "stencil_texture": STENCIL_UNIT,
-            "polygon_edges": 1,
-            "own_share": self._shares[0],
-            **{f"partner{i}_share": share for i, share in enumerate(self._shares[1:])},
-            **{f"partner{i}_texture": FIRST_PARTNER_UNIT + i for i in range(len(self._shares) - 1)},
-            "glow_colour": GLOW_COLOUR,
-            **self._lights.uniforms(camera),
-        }
 
     def _draw_parts(
         self, surface: Surface, parts: list[Part], look: Look, scene: Uniforms, side: float
@@ -215,11 +197,16 @@ class Painter:
 
     def _stencil(self, surface: Surface, part: Part) -> list[str]:
         """What shadings without the part's own colours need to leave out what its texture leaves out."""
-        own = source_of(part.material, surface.mesh, self.textures)
-        if own.texture is None or not own.cut_out:
+        texture = self._stencil_of(surface, part)
+        if texture is None:
             return []
-        own.texture.use(STENCIL_UNIT)
+        texture.use(STENCIL_UNIT)
         return ["STENCILLED"]
+
+    def _stencil_of(self, surface: Surface, part: Part) -> moderngl.Texture | None:
+        """The part's own texture, where that lets the background through in places."""
+        own = source_of(part.material, surface.mesh, self.textures)
+        return own.texture if own.cut_out else None
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""
@@ -244,18 +231,7 @@ class Painter:
         define = [*source.defines(), *stencil]
         if source.texture is not None:
             source.texture.use(OWN_UNIT)
-        own: dict[str, object] = {
-            "albedo": tuple(value * finish.shade for value in source.factor),
-            "opacity": source.opacity,
-            "wrap": finish.wrap,
-            "gloss": finish.gloss,
-            "sharpness": finish.sharpness,
-            "sheen": finish.sheen,
-            "recess": finish.recess,
-            "matte": finish.matte,
-            "spill": finish.spill,
-            "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
-        }
+        own = lit_uniforms(finish, source, scene)
         if partners:
             define.append(f"PARTNERS {len(partners)}")
             own["stored_colour"] = source.stored
@@ -279,9 +255,9 @@ class Painter:
             define.append("CUTOUT")
         if self._glowing:
             define.append("GLOW")
-        # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
+        # Of the inside hardly a pixel is seen, unless of hair: light by vertex would be work for nothing.
         fine = surface.mesh.vertex_count >= FINE_MESH and not finish.by_pixel
-        by_vertex = self._software and fine and scene["side"] == _OUTSIDE
+        by_vertex = self._software and fine and (scene["side"] == _OUTSIDE or source.cut_out)
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
         self._draw(surface, part, scene, finish.shader, [*lit, *define], own)
 
@@ -328,14 +304,3 @@ class Painter:
         if self._ramp is not None:
             self._ramp.release()
             self._ramp = None
-
-
-def assign(program: moderngl.Program, values: Uniforms) -> None:
-    """Set those uniforms that the program has."""
-    for name, value in values.items():
-        if name not in program:
-            continue
-        if isinstance(value, bytes):
-            program[name].write(value)  # type: ignore[union-attr]
-        else:
-            program[name].value = value  # type: ignore[union-attr]

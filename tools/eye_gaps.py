@@ -22,7 +22,7 @@ def slices(triangles: np.ndarray, x: float) -> np.ndarray:
 
 
 def foremost(segments: np.ndarray, heights: np.ndarray) -> np.ndarray:
-    """The greatest z (h,) of segments (n, 2, 2) at each y of `heights`, ascending; -inf where there is none."""
+    """The greatest z (h,) of segments (n, 2, 2) at each of the ascending heights; -inf where none is."""
     depth = np.full(len(heights), -np.inf)
     order = np.sort(segments[:, :, 0], axis=1)
     first, last = np.searchsorted(heights, order[:, 0]), np.searchsorted(heights, order[:, 1])

@@ -12,7 +12,7 @@ EDGE_LIGHT, LID_LIGHT = 0.66, 0.76
 
 
 def paint_lids(colour: np.ndarray, edge: np.ndarray, upper: np.ndarray, lower: np.ndarray, look: Look):
-    """Over skin colours (p, 3); `edge` (p,) 0..1 between ball and lashes, distances (p,) to the lash lines."""
+    """Over skin (p, 3); `edge` (p,) 0..1 between ball and lashes, distances (p,) to both lash lines."""
     below = smoothstep(-0.03, 0.03, upper - lower)
     strength = 0.86 if look.feminine else 0.74
     # The upper edge faces down, into the shade of its lashes: it is what outlines an eye.

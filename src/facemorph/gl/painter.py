@@ -288,8 +288,8 @@ class Painter:
     def _draw_wire(self, surface: Surface, scene: Uniforms) -> None:
         program = self._programs.get("face.vert", "wire.frag", "wire.geom", define=["HEM"])
         surface.polygon_edges().use(1)
-        line = {"line_colour": (0.05, 0.055, 0.065, 0.85), "finer": float(2**surface.form.level)}
-        assign(program, {**scene, **line})
+        line = (0.05, 0.055, 0.065, 0.85)
+        assign(program, {**scene, "line_colour": line, "finer": float(2**surface.form.level)})
         self._ctx.disable(self._ctx.CULL_FACE)
         # Towards the camera by a hair: the same triangles' depths may differ in the last bit.
         self._ctx.polygon_offset = -1.0, -1.0

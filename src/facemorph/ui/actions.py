@@ -130,6 +130,11 @@ def toggle_wire(app: App) -> None:
     app.look = replace(app.look, wire=not app.look.wire)
 
 
+def set_smooth(app: App, smooth: str) -> None:
+    """Choose how the surface is refined: "off", "1", "2" levels or "auto"."""
+    app.settings.smooth_surface = smooth
+
+
 def view_from(app: App, direction: str) -> None:
     """Look from a named direction, the whole face in sight."""
     app.turntable = False

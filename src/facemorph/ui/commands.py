@@ -47,12 +47,25 @@ CURVE_HELP = {
 }
 
 
+_EXPORTED = "Pictures show it; meshes are exported as the file has them"
+SMOOTH_WORDS = {
+    "off": ("Smooth surface off", "The file's own polygons"),
+    "1": ("Smooth surface, level 1", f"Catmull-Clark once: four times the polygons. {_EXPORTED}"),
+    "2": ("Smooth surface, level 2", f"Catmull-Clark twice: sixteen times the polygons. {_EXPORTED}"),
+    "auto": ("Smooth surface automatically", "Level 1 where a graphics card's frames leave room for it"),
+}
+
+
 def _keys(text: str) -> tuple[Chord, ...]:
     return tuple(Chord.parse(part) for part in text.split())
 
 
 def _shading_is(shading: str, app: App) -> bool:
     return app.look.shading == shading
+
+
+def _smooth_is(smooth: str, app: App) -> bool:
+    return app.settings.smooth_surface == smooth
 
 
 def _curve_is(curve: str, app: App) -> bool:
@@ -128,6 +141,9 @@ VIEW = (
     Command(SHADING_WORDS["heat"], actions.toggle_heat, "View", _keys("H"), 1, has_face,
             partial(_shading_is, "heat"),
             help="How far each point has moved from the neutral face; once more for the skin"),
+    *(Command(words, partial(actions.set_smooth, smooth=name), "View/Smooth surface", (), 0, has_face,
+              partial(_smooth_is, name), help=tip)
+      for name, (words, tip) in SMOOTH_WORDS.items()),
     Command("Wireframe over the face", actions.toggle_wire, "View", _keys("W"), 2, has_face,
             lambda app: app.look.wire),
     Command("Correctives", actions.toggle_correctives, "View", (), 2,

@@ -23,6 +23,7 @@ from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
 from facemorph.ui.people_pictures import CornerPictures
 from facemorph.ui.plots import release_plots
+from facemorph.ui.smoothing import Smoothing
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
@@ -46,6 +47,7 @@ class Session:
         self.thumbnails = thumbnails
         self.poles = PolePictures()
         self.corners = CornerPictures()
+        self._smoothing = Smoothing()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
@@ -172,6 +174,7 @@ class Session:
         pictured = self.poles.step(app, self.renderer) or self.corners.step(app, self.renderer)
         if pictured:
             self._drawn = ()
+        self._smooth(app)
         view = app.views()[0]
         # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
         playing = app.playback.playing or app.pages.emotion.player.playing
@@ -199,6 +202,12 @@ class Session:
         if app.on_face.split is not None:
             self._hurried |= self.split.draw(app, app.on_face.split, quality)
         self._save(app)
+
+    def _smooth(self, app: App) -> None:
+        level = self._smoothing.step(app, self.renderer.draw_secs)
+        if app.form is not None:
+            self.renderer.take(app.form)
+        app.look = replace(app.look, subdivision=level)
 
     def _legend(self, app: App) -> None:
         # The interface was built before the face was drawn, so a new legend takes one more frame.

@@ -16,6 +16,7 @@ from typing import Any
 VERSION = 1
 MOST_RECENT = 12
 THEMES = ("dark", "light")
+SMOOTH_SURFACES = ("off", "1", "2", "auto")
 
 
 @dataclass
@@ -38,6 +39,7 @@ class Settings:
     curve: str = "cosine"
     hint_seen: bool = False
     last_folder: str = ""
+    smooth_surface: str = "auto"
 
     def remember(self, source: tuple[str, ...]) -> None:
         """Put what was just opened at the head of the recent list."""
@@ -88,6 +90,7 @@ _FITS: dict[str, Callable[[Any], bool]] = {
     "curve": lambda v: v in ("linear", "cosine"),
     "hint_seen": _flag,
     "last_folder": lambda v: isinstance(v, str),
+    "smooth_surface": lambda v: v in SMOOTH_SURFACES,
 }
 
 

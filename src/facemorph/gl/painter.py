@@ -100,14 +100,9 @@ class Painter:
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
         clear = [part for part in surface.parts if self._opacity(part) < 1.0]
-        strips = [part for part in clear if self._stencil_of(surface, part) is not None]
-        glass = [part for part in clear if part not in strips]
-        for side in (_INSIDE, _OUTSIDE):
-            self._draw_parts(surface, glass, look, scene, side)
-        # Hair covers nearly all that lies behind it: drawn first, its outside saves the work for the rest.
-        for side in (_OUTSIDE, _INSIDE):
-            seen = [part for part in strips if side == _OUTSIDE or not finish_of(part.material).one_sided]
-            self._draw_parts(surface, seen, look, scene, side)
+        both = [part for part in clear if not finish_of(part.material).one_sided]
+        self._draw_parts(surface, both, look, scene, _INSIDE)
+        self._draw_parts(surface, clear, look, scene, _OUTSIDE)
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 
@@ -197,16 +192,11 @@ class Painter:
 
     def _stencil(self, surface: Surface, part: Part) -> list[str]:
         """What shadings without the part's own colours need to leave out what its texture leaves out."""
-        texture = self._stencil_of(surface, part)
-        if texture is None:
-            return []
-        texture.use(STENCIL_UNIT)
-        return ["STENCILLED"]
-
-    def _stencil_of(self, surface: Surface, part: Part) -> moderngl.Texture | None:
-        """The part's own texture, where that lets the background through in places."""
         own = source_of(part.material, surface.mesh, self.textures)
-        return own.texture if own.cut_out else None
+        if own.texture is None or not own.cut_out:
+            return []
+        own.texture.use(STENCIL_UNIT)
+        return ["STENCILLED"]
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""

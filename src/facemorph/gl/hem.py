@@ -26,7 +26,8 @@ class Hem:
 def hem_of(mesh: Mesh, triangles: Int32, apart: Bool | None = None) -> Hem | None:
     """The hem of `mesh`, or None where it has no open lower end.
 
-    Triangles `apart` (T,) are no part of the bust: hair that hangs down to its shoulders. A bust is open along edges of one triangle only, all of them in the lowest quarter of its height.
+    Triangles `apart` (T,) are no part of the bust: hair that hangs down to its shoulders. A bust is open
+    along edges of one triangle only, all of them in the lowest quarter of its height.
     """
     low, high = (float(value) for value in mesh.bounds[:, 1])
     height = high - low

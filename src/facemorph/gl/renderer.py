@@ -37,13 +37,14 @@ from facemorph.gl.form import Form
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.lights import Lights
 from facemorph.gl.morph import Morph, Stats
-from facemorph.gl.painter import NOTHING_OF_FACE, Painter
+from facemorph.gl.painter import Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
 from facemorph.gl.scenes import checked_scene
 from facemorph.gl.stage import Stage
 from facemorph.gl.surface import Surface
 from facemorph.gl.target import Target
+from facemorph.gl.uniforms import NOTHING_OF_FACE
 
 if TYPE_CHECKING:
     import moderngl

@@ -16,7 +16,6 @@ import numpy as np
 
 from facemorph.core.arrays import Float32, Int32, UInt8
 from facemorph.core.camera import Camera
-from facemorph.core.lengths import displacements
 from facemorph.core.mesh import Labels
 from facemorph.core.normals import vertex_normals
 from facemorph.core.picture import Look, checked_size
@@ -114,13 +113,20 @@ def export_positions(rig: Rig, positions: Float32, path: str | Path) -> Path:
     return Path(path)
 
 
-def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> HandleSet:
-    """Points to rebuild `target` from: so many that cover what moves, or those of a handles file.
+def control_points(
+    rig: Rig,
+    source: str,
+    target: str,
+    points: int | str | Path,
+    kernel: Kernel = "r",
+    c: float | None = None,
+) -> HandleSet:
+    """Points to rebuild `target` from: so many that do it well by `kernel`, or those of a handles file.
 
     Raises `OptionError`, `DeformError`, `UnknownNameError`, `ControlsFileError`, `MeshFileError`.
     """
+    from facemorph.deform.control_points import rebuilding_vertices
     from facemorph.deform.handles import Handle, HandleSet
-    from facemorph.deform.rebuild import control_vertices
     from facemorph.io import read_handles
 
     if isinstance(points, str) and points.isdecimal():
@@ -129,9 +135,9 @@ def control_points(rig: Rig, source: str, target: str, points: int | str | Path)
         return read_handles(points, rig)
     if not 4 <= points <= MOST_POINTS:
         raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
-    moved = displacements(rig.positions(state_of(target)), rig.positions(state_of(source)))
-    vertices = control_vertices(rig, points, moved)
-    return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices))
+    first, last = rig.positions(state_of(source)), rig.positions(state_of(target))
+    vertices = rebuilding_vertices(rig, first, last, points, kernel, c)
+    return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices), kernel, c)
 
 
 def rebuild(

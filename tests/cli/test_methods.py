@@ -185,3 +185,22 @@ def test_a_tiny_heat_map_goes_without_a_legend(tmp_path):
     out = tmp_path / "x.png"
     assert main(["render", "ada", "--to", "happy", "--shading", "heat", "--size", "8x8", "-o", str(out)]) == 0
     assert Image.open(out).size == (8, 8)
+
+
+def test_a_face_of_another_topology_is_refused_by_name_before_its_expressions(capsys, tmp_path):
+    cube = tmp_path / "cube.obj"
+    cube.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    line = refused(capsys, "export", "--bilinear", f"ada,{cube}", "happy,sad", "-o", str(tmp_path / "x.obj"))
+    assert f"{cube}: it has 3 vertices" in line
+    assert "one topology" in line
+    assert not (tmp_path / "x.obj").exists()
+
+
+def test_what_the_second_person_lacks_is_said_with_what_they_have(ada, capsys, tmp_path):
+    from facemorph.io import write_obj
+
+    write_obj(tmp_path / "neutral.obj", ada.neutral)
+    write_obj(tmp_path / "happy.obj", ada.posed({"happy": 1.0}))
+    pair = ["--bilinear", f"ada,{tmp_path}", "neutral,happy", "--s", "0.5", "-o", str(tmp_path / "x.obj")]
+    line = refused(capsys, "export", *pair, "--au", "12")
+    assert f"no shape of {tmp_path} is called 'AU12'. There are: neutral, happy." in line

@@ -16,7 +16,7 @@ from imgui_bundle import imgui
 from facemorph.core.camera import Camera
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
-from facemorph.ui import actions, emotion, files, fonts, theme
+from facemorph.ui import actions, emotion_paths, files, fonts, theme
 from facemorph.ui.draw import draw_ui
 from facemorph.ui.emotion_pictures import PolePictures
 from facemorph.ui.hotkeys import nudging
@@ -65,7 +65,7 @@ class Session:
         self._begin(scale)
         imgui.new_frame()
         draw_ui(app)
-        emotion.take_sample(app, self._last_secs)
+        emotion_paths.take_sample(app, self._last_secs)
         self._fulfil(app)
         self._draw_face(app)
         busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
@@ -105,7 +105,7 @@ class Session:
         self._take_arriving(app)
         if app.playback.playing:
             app.pose = replace(app.pose, t=app.playback.advanced(elapsed))
-        emotion.advance(app, elapsed)
+        emotion_paths.advance(app, elapsed)
         if app.turntable:
             app.camera = app.camera.orbited(elapsed * TURNTABLE_DEGREES_PER_SEC, 0.0)
         if self.thumbnails is not None:

@@ -18,10 +18,10 @@ from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
 from facemorph.ui import actions, emotion_paths, files, fonts, theme
 from facemorph.ui.draw import draw_ui
-from facemorph.ui.emotion_pictures import PolePictures
+from facemorph.ui.emotion_pictures import pole_pictures
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
-from facemorph.ui.people_pictures import CornerPictures
+from facemorph.ui.people_pictures import corner_pictures
 from facemorph.ui.plots import release_plots
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
@@ -44,8 +44,8 @@ class Session:
         self.split = SplitView(second or (lambda: _another(renderer)))
         self.renderer = renderer
         self.thumbnails = thumbnails
-        self.poles = PolePictures()
-        self.corners = CornerPictures()
+        self.poles = pole_pictures()
+        self.corners = corner_pictures()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None

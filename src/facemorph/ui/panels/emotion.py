@@ -98,6 +98,8 @@ def _place(app: App) -> None:
     imgui.same_line(0, 0)
     x = typed_number(app, "emotion x", control.x, -1.0, 1.0, number)
     imgui.same_line(0, 10 * scale)
+    if imgui.get_content_region_avail().x < word + number:
+        imgui.new_line()
     row_label(app, "Cy", word, _PLACE_TIP.format(axis="y"))
     imgui.same_line(0, 0)
     y = typed_number(app, "emotion y", control.y, -1.0, 1.0, number)
@@ -166,6 +168,8 @@ def _path(app: App) -> None:
         emotion_paths.toggle_play(app)
     imgui.end_disabled()
     imgui.same_line(0, 2 * scale)
+    if imgui.get_content_region_avail().x < imgui.get_frame_height():
+        imgui.new_line()
     tip = "Loop: there and back again, so that the face never jumps"
     if icon_button(app, fonts.LOOP, "loop path", tip, lit=page.player.loop):
         emotion_paths.toggle_loop(app)

@@ -23,7 +23,7 @@ from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.core.scene import Scene
-from facemorph.errors import OptionError, PoseError
+from facemorph.errors import DeformError, OptionError, PoseError
 
 if TYPE_CHECKING:
     from facemorph.deform.handles import HandleSet
@@ -143,9 +143,17 @@ def control_points(
 def rebuild(
     rig: Rig, source: str, target: str, vertices: Int32, kernel: Kernel = "r", c: float | None = None
 ) -> Rebuilt:
-    """Expression `target` rebuilt from `source` and how the control points at `vertices` (n,) move (2.3)."""
+    """Expression `target` rebuilt from `source` and how the control points at `vertices` (n,) move (2.3).
+
+    Raises `DeformError` for points that make no deformation, `UnknownNameError`.
+    """
     from facemorph.deform.rebuild import rebuilt
 
+    strange = [int(vertex) for vertex in vertices if not 0 <= vertex < rig.neutral.vertex_count]
+    if strange:
+        raise DeformError(
+            f"there is no vertex {strange[0]}; the face has 0 to {rig.neutral.vertex_count - 1}."
+        )
     return rebuilt(rig, rig.positions(state_of(source)), rig.positions(state_of(target)), vertices, kernel, c)
 
 

@@ -9,13 +9,16 @@ import pytest
 from PIL import Image
 
 import facemorph
-from facemorph.api import save_expressions
+from facemorph.api import rebuild, save_expressions
 from facemorph.cli import main
 from facemorph.core.facs import Sides
 from facemorph.core.pose import Pose
+from facemorph.core.scene import Scene
+from facemorph.deform.controls import BoundControls, Controls, EmotionControl
 from facemorph.deform.handles import Handle, HandleSet
 from facemorph.deform.people import bilinear
 from facemorph.deform.sides import SidedUnits
+from facemorph.errors import DeformError
 from facemorph.io import read_mesh, write_handles
 
 
@@ -204,3 +207,16 @@ def test_what_the_second_person_lacks_is_said_with_what_they_have(ada, capsys, t
     pair = ["--bilinear", f"ada,{tmp_path}", "neutral,happy", "--s", "0.5", "-o", str(tmp_path / "x.obj")]
     line = refused(capsys, "export", *pair, "--au", "12")
     assert f"no shape of {tmp_path} is called 'AU12'. There are: neutral, happy." in line
+
+
+def test_points_off_the_face_are_refused_by_the_library(ada):
+    with pytest.raises(DeformError, match="no vertex 99999; the face has 0 to"):
+        rebuild(ada, "neutral", "happy", np.array([5, 99999, 9, 100]))
+
+
+def test_the_librarys_methods_mean_what_the_options_mean(ada, tmp_path):
+    controls = Controls(facs={12: Sides.both(0.8)}, emotion=EmotionControl(0.3, 0.6))
+    scene = Scene.moved(Pose(), BoundControls(ada)(Pose(), controls))
+    facemorph.export(ada, scene, tmp_path / "library.obj")
+    expected = exported(tmp_path, "ada", "--au", "12=0.8", "--emotion", "0.3,0.6")
+    np.testing.assert_array_equal(read_mesh(tmp_path / "library.obj").positions, expected)

@@ -16,12 +16,12 @@ from imgui_bundle import imgui
 from facemorph.core.camera import Camera
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
-from facemorph.ui import actions, emotion, files, fonts, theme
+from facemorph.ui import actions, emotion_paths, files, fonts, theme
 from facemorph.ui.draw import draw_ui
-from facemorph.ui.emotion_pictures import PolePictures
+from facemorph.ui.emotion_pictures import pole_pictures
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
-from facemorph.ui.people_pictures import CornerPictures
+from facemorph.ui.people_pictures import corner_pictures
 from facemorph.ui.plots import release_plots
 from facemorph.ui.smoothing import Smoothing
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
@@ -45,8 +45,8 @@ class Session:
         self.split = SplitView(second or (lambda: _another(renderer)))
         self.renderer = renderer
         self.thumbnails = thumbnails
-        self.poles = PolePictures()
-        self.corners = CornerPictures()
+        self.poles = pole_pictures()
+        self.corners = corner_pictures()
         self._smoothing = Smoothing()
         self._clock = clock
         self._last_secs = clock()
@@ -67,7 +67,7 @@ class Session:
         self._begin(scale)
         imgui.new_frame()
         draw_ui(app)
-        emotion.take_sample(app, self._last_secs)
+        emotion_paths.take_sample(app, self._last_secs)
         self._fulfil(app)
         self._draw_face(app)
         busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
@@ -107,7 +107,7 @@ class Session:
         self._take_arriving(app)
         if app.playback.playing:
             app.pose = replace(app.pose, t=app.playback.advanced(elapsed))
-        emotion.advance(app, elapsed)
+        emotion_paths.advance(app, elapsed)
         if app.turntable:
             app.camera = app.camera.orbited(elapsed * TURNTABLE_DEGREES_PER_SEC, 0.0)
         if self.thumbnails is not None:

@@ -13,8 +13,7 @@ from facemorph.ui.widgets import cut, tooltip, unit
 # Submenus hang in their menu before the commands of a group.
 _SUBMENUS: dict[str, dict[int, tuple[str, ...]]] = {
     "File": {1: ("Open recent", "Built-in faces")},
-    "Edit": {1: ("Handles", "Regions")},
-    "Expression": {1: ("FACS units", "Emotion map", "People")},
+    "Expression": {1: ("FACS units", "Emotion map", "People", "Handles", "Regions")},
     "View": {3: ("Smooth surface",), 4: ("Page",)},
 }
 

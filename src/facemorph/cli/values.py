@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from facemorph.core.morph import checked_curve
-from facemorph.core.picture import Look, checked_shading
-from facemorph.core.pose import NEUTRAL, Pose, parsed_weight, state_of
+from facemorph.core.picture import Look, checked_light, checked_luminance, checked_shading
+from facemorph.core.pose import NEUTRAL, Pose, parsed_number, parsed_weight, state_of
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError
 
@@ -46,11 +47,15 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
 
 
 def look_from(options: argparse.Namespace) -> Look:
-    """The look of --shading and --background."""
-    shading = checked_shading(options.shading)
-    if options.background is None:
-        return Look(shading=shading)
-    return Look(shading=shading, background=background_colour(options.background))
+    """The look of --shading, --light, --background, --equal-luminance and --per-picture."""
+    background = None if options.background is None else background_colour(options.background)
+    look = Look(checked_shading(options.shading), background=background, light=checked_light(options.light))
+    if options.luminance is None:
+        if options.per_picture:
+            raise OptionError("--per-picture says what --equal-luminance holds for; give that too.")
+        return look
+    luminance = checked_luminance(parsed_number(options.luminance, "--equal-luminance"))
+    return replace(look, luminance=luminance, luminance_of="picture" if options.per_picture else "face")
 
 
 def background_colour(text: str) -> tuple[float, float, float, float]:

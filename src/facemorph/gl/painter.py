@@ -15,7 +15,7 @@ import numpy as np
 
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
-from facemorph.gl.backdrop import Backdrop
+from facemorph.gl.backdrop import STRENGTH, Backdrop, shadow_uniforms
 from facemorph.gl.colours import (
     FIRST_PARTNER_UNIT,
     OWN_UNIT,
@@ -26,8 +26,8 @@ from facemorph.gl.colours import (
 )
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
-from facemorph.gl.lights import Lights
-from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, Finish, finish_of
+from facemorph.gl.light_rigs import lights_of
+from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, SKIN, Finish, finish_of
 from facemorph.gl.programs import Programs
 from facemorph.gl.surface import Part, Surface
 from facemorph.gl.textures import Textures
@@ -48,10 +48,9 @@ FINE_MESH = 8000
 class Painter:
     """Draws a surface with a context's programs."""
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs, lights: Lights, *, software: bool) -> None:
+    def __init__(self, ctx: moderngl.Context, programs: Programs, *, software: bool) -> None:
         self._ctx = ctx
         self._programs = programs
-        self._lights = lights
         self._software = software
         self.textures = Textures(ctx, software=software)
         self._backdrop = Backdrop(ctx, programs)
@@ -83,7 +82,7 @@ class Painter:
         """
         self._glowing = glowing
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
-        scene = {**self._scene(camera, look, size), **face}
+        scene = {**self._scene(surface, camera, look, size), **face}
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
@@ -103,16 +102,41 @@ class Painter:
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 
+    def paint_skin(
+        self, framebuffer: moderngl.Framebuffer, surface: Surface, camera: Camera, size: tuple[int, int]
+    ) -> None:
+        """Fill `framebuffer` with white where skin is seen, black elsewhere; all that is solid, without skin.
+
+        What a bust's end fades into is no skin.
+        """
+        black = Look(background=(0.0, 0.0, 0.0, 0.0))
+        scene = {**self._scene(surface, camera, black, size), "side": _OUTSIDE}
+        skin = [part for part in surface.parts if finish_of(part.material) == SKIN]
+        counted = [part for part in skin or surface.parts if part.material.opacity >= 1.0 and not part.in_hem]
+        self._assigned.clear()
+        framebuffer.use()
+        framebuffer.clear(0.0, 0.0, 0.0, 1.0)
+        self._ctx.enable_only(self._ctx.DEPTH_TEST)
+        self._ctx.depth_func = "<="
+        for part in surface.parts:
+            own = {"counted": float(part in counted)}
+            self._draw(surface, part, scene, "mask.frag", self._stencil(surface, part), own)
+
     def _opacity(self, part: Part) -> float:
         return blended_opacity((part.material, *part.partners), self._shares)
 
-    def _scene(self, camera: Camera, look: Look, size: tuple[int, int]) -> dict[str, object]:
+    def _scene(
+        self, surface: Surface, camera: Camera, look: Look, size: tuple[int, int]
+    ) -> dict[str, object]:
         """The uniforms that every part of the picture shares."""
         matrix = camera.clip_from_model(size[0] / size[1])
+        lights = lights_of(look.light)
         return {
             "clip_from_model": np.ascontiguousarray(matrix.T, np.float32).tobytes(),
             "camera_position": tuple(float(value) for value in camera.position()),
-            "background": look.background,
+            "background": look.backdrop,
+            "backdrop_depth": lights.backdrop,
+            **shadow_uniforms(surface.mesh.bounds, camera, size, STRENGTH),
             "picture_size": (float(size[0]), float(size[1])),
             "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
             "ramp": 0,
@@ -123,7 +147,7 @@ class Painter:
             **{f"partner{i}_share": share for i, share in enumerate(self._shares[1:])},
             **{f"partner{i}_texture": FIRST_PARTNER_UNIT + i for i in range(len(self._shares) - 1)},
             "glow_colour": GLOW_COLOUR,
-            **self._lights.uniforms(camera),
+            **lights.uniforms(camera, look.exposure),
         }
 
     def _draw_parts(

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, UInt8
+from facemorph.core.arrays import Bool, Float32, UInt8
 from facemorph.core.blend import Blend
 from facemorph.core.camera import Camera
 from facemorph.core.lengths import displacements
@@ -31,8 +31,8 @@ from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
 from facemorph.gl.drivers import Driver, drivers_of, uniforms_of
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
-from facemorph.gl.lights import Lights
-from facemorph.gl.morph import Morph, Shown, Stats
+from facemorph.gl.luminance import EqualLuminance
+from facemorph.gl.morph import Morph, Shown, Stats, new_morph
 from facemorph.gl.painter import NOTHING_OF_FACE, Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
@@ -55,9 +55,7 @@ class Renderer:
             on the CPU; "auto" chooses by the context's renderer
     """
 
-    def __init__(
-        self, ctx: moderngl.Context, morph: MorphPath = "auto", *, lights: Lights | None = None
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, morph: MorphPath = "auto") -> None:
         if morph not in ("auto", "shader", "cpu"):
             raise OptionError(f"a morph path is auto, shader or cpu; not {morph!r}.")
         self.ctx = ctx
@@ -66,7 +64,8 @@ class Renderer:
         self.stats = Stats()
         self._programs = Programs(ctx)
         self._target = Target(ctx)
-        self._painter = Painter(ctx, self._programs, lights or Lights(), software=self.graphics.software)
+        self._painter = Painter(ctx, self._programs, software=self.graphics.software)
+        self._luminance = EqualLuminance(self)
         self._rig: Rig | None = None
         self._surface: Surface | None = None
         self._morph: Morph | None = None
@@ -85,7 +84,7 @@ class Renderer:
         surface = Surface(self.ctx, rig.neutral)
         blend = Blend(rig.neutral.positions, rig.deltas)
         try:
-            morph = self._new_morph(rig, surface, blend)
+            morph = new_morph(self.path, self.ctx, self._programs, rig, surface, blend)
         except GraphicsError:
             surface.release()
             raise
@@ -93,15 +92,6 @@ class Renderer:
         self._rig, self._surface, self._blend, self._morph = rig, surface, blend, morph
         self._drivers = drivers_of(rig)
         self.stats = Stats()
-
-    def _new_morph(self, rig: Rig, surface: Surface, blend: Blend) -> Morph:
-        if self.path == "shader":
-            from facemorph.gl.morph_shader import ShaderMorph
-
-            return ShaderMorph(self.ctx, self._programs, rig, surface)
-        from facemorph.gl.morph_cpu import CpuMorph
-
-        return CpuMorph(self.ctx, rig, surface, blend)
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -143,11 +133,13 @@ class Renderer:
 
         Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
         `MeshDataError` for arrays of another shape than the rig's, `CorrespondenceError` for a partner
-        with other polygons.
+        with other polygons. A luminance is sought in further pictures, and may be refused (`gl.luminance`).
         """
         rig, _ = self._loaded()
         size = checked_size(size)
         scene = checked_scene(Scene.of(what), rig)
+        if look.luminance is not None:
+            look = self._luminance.settled(scene, camera, look, size)
         # Asked of GL itself: a window's interface binds framebuffers that moderngl has not seen.
         outer = self.ctx.detect_framebuffer()
         hurried = quality == "fast" and self.graphics.software
@@ -181,6 +173,24 @@ class Renderer:
     def read(self) -> UInt8:
         """The picture drawn last, (H, W, 4) uint8 sRGB with straight alpha, top row first."""
         return self._target.read()
+
+    def skin_pixels(self) -> Bool:
+        """Which pixels (H, W), top row first, of the picture drawn last show nothing but skin.
+
+        Of a face that has no skin by its materials' names, all that is solid. The picture itself is lost.
+        """
+        _, surface = self._loaded()
+        if self._drawn is None:
+            raise GraphicsError("nothing has been drawn yet; call draw first.")
+        camera, size = self._drawn
+        outer = self.ctx.detect_framebuffer()
+        try:
+            framebuffer = self._target.prepare(size, min(SAMPLES, self.graphics.max_samples))
+            self._painter.paint_skin(framebuffer, surface, camera, size)
+            self._target.finish(framebuffer)
+        finally:
+            self._painter.restore(outer)
+        return np.asarray(self._target.read()[..., 0] == 255)
 
     def positions(self) -> Float32:
         """Positions (V, 3) of the face as drawn last, model units, offsets and all.
@@ -273,6 +283,7 @@ class Renderer:
 
     def _unload(self) -> None:
         self._painter.textures.forget()
+        self._luminance.forget()
         for held in (self._morph, self._surface):
             if held is not None:
                 held.release()

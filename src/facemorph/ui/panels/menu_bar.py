@@ -15,7 +15,7 @@ _SUBMENUS = {
     "File": (1, ("Open recent", "Built-in faces")),
     "Edit": (1, ("Handles", "Regions")),
     "Expression": (1, ("FACS units", "Emotion map", "People")),
-    "View": (4, ("Page",)),
+    "View": (4, ("Lights", "Page")),
 }
 
 

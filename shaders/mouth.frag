@@ -15,7 +15,7 @@ uniform float spill;                   // how far light from the lips' edge spil
 
 const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
 const float PASSED_ON = 0.7;
-const float AT_LIPS = 0.62;                    // of the light is left where lips end and their lining begins
+const float AT_LIPS = 0.50;                    // of the light is left where lips end and their lining begins
 
 // How near the lips' edge a place is: 1 on it, 0 from `spill` on.
 float beside_lips(vec3 position) {

@@ -8,6 +8,7 @@ layout(triangle_strip, max_vertices = 3) out;
 
 uniform usampler2D polygon_edges;      // for each triangle, which of its edges are the polygon's
 uniform vec2 picture_size;
+uniform float finer;                   // how many times as wide the file's polygons are
 
 in float surface_kept[];
 
@@ -37,7 +38,7 @@ void main() {
     mat3 to_edges = mat3(0.0, reach.y, 0.0, 0.0, 0.0, reach.z, reach.x, 0.0, 0.0);
     for (int i = 0; i < 3; ++i) {
         edge_distance = to_edges[i] + absent;
-        coarseness = min(reach.x, min(reach.y, reach.z));
+        coarseness = finer * min(reach.x, min(reach.y, reach.z));
         line_kept = surface_kept[i];
         gl_Position = gl_in[i].gl_Position;
         EmitVertex();

@@ -19,9 +19,10 @@ if not (TOOLS / "face_bake").is_dir():
 sys.path.insert(0, str(TOOLS))
 
 from face_bake import mouth_fit  # noqa: E402
-from face_bake.dentition import crowns, placed  # noqa: E402
+from face_bake.dentition import ToothPlace, crowns, placed  # noqa: E402
 from face_bake.mouth_fit import CLEARANCE, LOWER_HELPER, Arch, MouthFit  # noqa: E402
 from face_bake.mouth_room import _softly  # noqa: E402
+from face_bake.parts_gums import gum_columns  # noqa: E402
 from face_bake.parts_teeth import Teeth  # noqa: E402
 from face_bake.parts_tongue import FULLY_OUT, HELPER_TIP, TONGUE_TIP, Tongue  # noqa: E402
 from face_bake.polygons import triangles_of  # noqa: E402
@@ -51,6 +52,13 @@ def neutral() -> np.ndarray:
 def volume(points: np.ndarray, triangles: np.ndarray) -> float:
     a, b, c = (points[triangles[:, k]] for k in range(3))
     return float((np.cross(a, b) * c).sum() / 6)
+
+
+def surface_of(tooth: ToothPlace, steps: int = 8) -> np.ndarray:
+    """Places all over a crown."""
+    corners = tooth.world(tooth.crown.points)[triangles_of(tooth.crown.polygons())]
+    shares = [[i, j, steps - i - j] for i in range(steps + 1) for j in range(steps + 1 - i)]
+    return np.einsum("sk,tkd->tsd", np.array(shares) / steps, corners).reshape(-1, 3)
 
 
 @pytest.mark.parametrize("arch", [UPPER, LOWER])
@@ -99,11 +107,22 @@ def test_each_tooth_is_closed_and_faces_outwards(upper: bool, neutral: np.ndarra
 
 
 @pytest.mark.parametrize(("arch", "upper"), [(UPPER, True), (LOWER, False)])
+def test_gums_face_the_lips_in_front_and_the_tongue_behind(arch: Arch, upper: bool, neutral: np.ndarray):
+    teeth = Teeth(upper)
+    points, polygons = teeth.place(posed(neutral, neutral)), teeth.groups[1].polygons
+    strips = polygons[: 6 * (gum_columns() - 1)].reshape(6, -1, 4)
+    for row, way in ((0, 1), (1, 1), (2, 1), (5, -1)):
+        corners = points[strips[row]]
+        normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        _, out = arch.distance(corners.mean(1))
+        assert way * (normals * out).sum(1).mean() > 0
+
+
+@pytest.mark.parametrize(("arch", "upper"), [(UPPER, True), (LOWER, False)])
 def test_neighbours_touch_or_nearly(arch: Arch, upper: bool):
-    teeth = placed(arch, "somebody", upper)
-    for one, other in pairwise(teeth):
-        a, b = one.world(one.crown.points), other.world(other.crown.points)
-        assert cKDTree(a).query(b)[0].min() < 1.3 * MILLIMETRE
+    surfaces = [surface_of(tooth) for tooth in placed(arch, "somebody", upper)]
+    for one, other in pairwise(surfaces):
+        assert cKDTree(one).query(other)[0].min() < 0.7 * MILLIMETRE
 
 
 def test_the_upper_incisors_pass_before_the_lower_ones_and_no_crown_cuts_another(neutral: np.ndarray):

@@ -23,8 +23,11 @@ GROUPS = [
     "gums_lower",
     "tongue",
     "lashes",
+    "brows",
+    "hair",
+    "hair_locks",
 ]
-PICTURES = ("skin.jpg", "eye.jpg", "teeth.jpg", "gum.jpg", "tongue.jpg")
+PICTURES = ("skin.jpg", "eye.jpg", "teeth.jpg", "gum.jpg", "tongue.jpg", "lash.png", "brow.png", "hair.png")
 REGIONS = ["brows", "eyes", "nose", "cheeks", "mouth", "jaw"]
 MEGABYTE = 1e6
 LARGEST_FOLDER, LARGEST_ZIPPED = 56 * MEGABYTE, 30 * MEGABYTE

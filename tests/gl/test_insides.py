@@ -197,13 +197,13 @@ def both_ways(ctx: moderngl.Context, rig: Rig, scene: Scene, cameras: list[Camer
     away = []
     for renderer in (hurried, plain):
         renderer.load(rig)
-    plain._surface._shell_sought = True  # type: ignore[union-attr]
+    plain.surface._shell_sought = True  # type: ignore[union-attr]
     for camera in cameras:
         for renderer in (hurried, plain):
             for _ in range(3):
                 renderer.draw(scene, camera, look, SIZE, quality="fast")
         away.append(int((hurried.read() != plain.read()).any(axis=2).sum()))
-    assert plain._surface.insides is None  # type: ignore[union-attr]
+    assert plain.surface.insides is None  # type: ignore[union-attr]
     hurried.release()
     plain.release()
     return away

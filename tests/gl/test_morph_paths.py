@@ -20,8 +20,9 @@ from facemorph.core.pose import Pose
 from facemorph.core.rig import FaceInfo, Rig, Shape
 from facemorph.gl.morph import Morph
 from facemorph.gl.morph_cpu import CpuMorph
-from facemorph.gl.morph_shader import ShaderMorph, vertex_rings
+from facemorph.gl.morph_shader import ShaderMorph
 from facemorph.gl.programs import Programs
+from facemorph.gl.rings import vertex_rings
 from facemorph.gl.surface import Surface
 from tests.gl.heads import many_shapes
 

@@ -185,12 +185,12 @@ def test_people_of_one_set_of_coordinates_split_no_vertex(
     count = len(drawn(renderer)[2])
     renderer.draw(Scene(POSE, partners=tuple(Partner(rig, 0.1) for rig in people[:5])), camera, Look(), SIZE)
     assert len(drawn(renderer)[2]) == count
-    surface = renderer._surface
+    surface = renderer.surface
     assert surface is not None
     assert all(surface.shares_uvs(i) for i in range(5))
     loose = turned(people[1], folder, 0.3)
     renderer.draw(Scene(POSE, partners=(Partner(people[0], 0.2), Partner(loose, 0.2))), camera, Look(), SIZE)
-    surface = renderer._surface
+    surface = renderer.surface
     assert surface is not None
     assert [surface.shares_uvs(i) for i in range(2)] == [True, False]
 

@@ -50,7 +50,7 @@ def offsets_of(rig: Rig, size: float = 0.6) -> np.ndarray:
 
 def drawn(renderer: Renderer) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Positions and normals (G, 3) as they would be drawn, and the vertex each belongs to."""
-    surface = renderer._surface
+    surface = renderer.surface
     assert surface is not None
     values = np.frombuffer(surface.morphed.read(), np.float32).reshape(-1, 6)
     return values[:, :3], values[:, 3:], surface.position_of

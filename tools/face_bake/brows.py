@@ -138,8 +138,8 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
     for row in reversed(range(ROWS)):
         u = (np.arange(PLACES)[::-1] + rng.uniform(0.2, 0.8, PLACES)) / PLACES
         # The inner end frays: its hairs begin at any height.
-        fray = np.interp(u, [0, 0.25], [0.42, 0.16])
-        across = (-0.60, 0.10)[row] + fray * rng.uniform(-1, 1, PLACES)
+        fray = np.interp(u, [0, 0.25], [0.42, 0.16]) * (1 - 0.5 * row)
+        across = (-0.60, np.interp(u, [0, 0.2], [-0.15, 0.10]))[row] + fray * rng.uniform(-1, 1, PLACES)
         lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
         length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.85, 1.1, PLACES)
         tangent, half = curve.direction(u), curve.half_width(u)

@@ -20,6 +20,8 @@ LOWEST = 5.4
 TENT_AZIMUTHS, TENT_HEIGHTS = np.arange(0.0, 360.0, 4.0), np.arange(5.7, 8.0, 0.04)
 # Hair within this distance of the base head, dm, keeps it from a person's.
 NEAR = 0.16
+# and none comes nearer to the skin.
+ABOVE_SKIN = 0.010
 TENT_SLOPE, OFF_EARS = 0.30, 0.030
 
 
@@ -114,6 +116,7 @@ class Fitting:
         shift = (self._rest - self._base)[index]
         moved = flat + (weight[..., None] * shift).sum(1) / weight.sum(1)[:, None]
         wanted = _clearance(flat, self._base_tree, self._base, self._base_normals)[0]
+        wanted = np.maximum(wanted, ABOVE_SKIN)
         for _ in range(3):
             found, normal = _clearance(moved, self._rest_tree, self._rest, self._rest_normals)
             # Hair that stands off keeps its own shape; what lies on the skin keeps its distance from it.

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 # Elevation of the hairline by azimuth from the front (0) to the nape (180), degrees around the skull.
 WOMAN_LINE = (
-    *((0, 22.5), (14, 23), (26, 21), (36, 14), (45, 5), (53, -4), (61, -10), (69, -18), (74, -22)),
+    *((0, 22.5), (14, 23), (26, 21), (36, 18), (45, 9), (53, -2), (61, -10), (69, -18), (74, -22)),
     *((80, -12), (100, -14), (108, -28), (118, -40), (140, -47), (180, -50)),
 )
 MAN_LINE = (
@@ -21,6 +21,7 @@ RECEDING_LINE = (
     *((0, 31), (8, 32), (16, 38), (25, 43), (33, 40), (40, 27), (47, 13), (54, 2), (60, -6), (66, -16)),
     *((71, -27), (81, -30), (86, -12), (100, -14), (108, -28), (118, -40), (140, -48), (180, -52)),
 )
+# By so many degrees the two ends of a sheet that goes all around reach over each other.
 OVERLAP = 4.0
 
 
@@ -28,9 +29,10 @@ OVERLAP = 4.0
 class Locks:
     """Locks that are alike; pairs are ranges that a lock's own value is drawn from.
 
-    share: of the locks of their kind; c, t: where on the sheet the lock begins; reach: how far on it goes, in t, where negative runs towards
-    the parting; lift: above the sheet at root and tip, dm; width: dm; drift: sideways in c;
-    wave: how far it swings, dm; roll: degrees about its own line; fall: how much its free end hangs, dm.
+    share: of the locks of their kind; c, t: where on the sheet the lock begins; reach: how far on it goes,
+    in t, where negative runs towards the parting; root_lift, tip_lift: above the sheet, dm; width: dm;
+    drift: sideways in c; wave: how far it swings, dm; roll: degrees about its own line; fall: how much its
+    free end hangs, dm.
     """
 
     share: float

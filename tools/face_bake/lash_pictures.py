@@ -45,8 +45,8 @@ def brow_picture(look: Look) -> Image.Image:
             bend = rng.normal(0, 5) * np.clip(t, 0, 1) ** 2 + rng.normal(0, 3) * np.clip(t, 0, 1)
             x = tile * BROW_TILE + 7 + at * (BROW_TILE - 14) + bend
             x = np.clip(x, tile * BROW_TILE + 2, (tile + 1) * BROW_TILE - 2)
-            width = 3.6 * np.clip(1 - t, 0.05, 1) ** 0.6 * rng.uniform(0.8, 1.2)
-            opacity = 0.95 * smoothstep(0.0, 0.10, t) * smoothstep(1.0, 0.86, t)
+            width = 3.2 * np.clip(1 - t, 0.05, 1) ** 0.6 * rng.uniform(0.8, 1.2)
+            opacity = 0.86 * smoothstep(0.0, 0.16, t) * smoothstep(1.0, 0.80, t)
             tone = 0.68 + 0.22 * np.clip(t, 0, 1) + rng.normal(0, 0.08)
             whole.strand(x, width, tone, opacity)
     return _picture(whole)

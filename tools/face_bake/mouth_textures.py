@@ -12,7 +12,7 @@ IVORY, ROOT, EDGE = np.array([0.96, 0.91, 0.80]), np.array([0.90, 0.79, 0.61]), 
 AGED = np.array([0.965, 0.93, 0.84])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])
 PIGMENT = np.array([0.62, 0.52, 0.50])
-TONGUE, TONGUE_TIP = np.array([0.68, 0.38, 0.37]), np.array([0.69, 0.33, 0.33])
+TONGUE, TONGUE_TIP = np.array([0.66, 0.38, 0.37]), np.array([0.65, 0.34, 0.34])
 
 
 def _picture(colours: np.ndarray) -> Image.Image:
@@ -52,7 +52,9 @@ def teeth_picture(look: Look, width: int = 896, height: int = 192) -> Image.Imag
     neck = smoothstep(0.16, 0.0, crown)
     colours = colours * (1 - (0.34 * contact * smoothstep(1.02, 0.85, crown))[..., None] * [0.8, 1.0, 1.08])
     colours = colours * (1 - (0.40 * neck)[..., None] * [0.55, 1.0, 1.05])
-    colours = colours * (1 - 0.14 * behind)[..., None]
+    # Cheeks and tongue keep light from the back teeth.
+    hidden = 1 - (1 - 0.14 * behind) * (1 - 0.38 * smoothstep(3.0, 6.0, np.abs(tooth - 6.5)))
+    colours = colours * (1 - hidden[..., None] * [0.85, 1.0, 1.05])
     return _picture(colours * AGED**look.tooth_age)
 
 
@@ -103,4 +105,4 @@ def tongue_picture(look: Look, size: int = 256) -> Image.Image:
     colours = colours * (1 - groove[..., None] * [0.14, 0.20, 0.20])
     below = smoothstep(0.085, 0.075, u)
     colours = _blend(colours, np.array([0.68, 0.30, 0.31]), below)
-    return _picture(colours * (1 - 0.10 * look.gum_pigment * (1 - below))[..., None])
+    return _picture(colours * (1 - 0.18 * look.gum_pigment * (1 - below))[..., None])

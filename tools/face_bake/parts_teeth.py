@@ -55,7 +55,7 @@ class Teeth:
         columns = gum_columns()
         across = np.linspace(0, 1, columns)
         uv = np.stack(np.broadcast_arrays(across, np.linspace(1, 0.4, ROWS)[:, None]), -1).reshape(-1, 2)
-        polygons = gum_polygons(columns, reverse=self._upper)
+        polygons = gum_polygons(columns, reverse=not self._upper)
         if not self._upper:
             return polygons, uv
         aside = np.linspace(0, 1, PALATE_COLUMNS)

@@ -182,8 +182,8 @@ KOFI = Person(
         lid=(0.88, 0.84, 0.82),
         stubble=0.35,
     ),
-    {"mouth/mouth-angles-up": 0.25},
-    rest=REST_OF_MEN,
+    {"mouth/mouth-angles-up": 0.35},
+    rest={**REST_OF_MEN, "sculpt:browInner": 0.16},
 )
 ZOLA = Person(
     "zola",

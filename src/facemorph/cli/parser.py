@@ -139,6 +139,12 @@ def _render(parser: Parser) -> None:
         "--shading", default="skin", metavar="NAME", help=f"{', '.join(SHADINGS)} (default: skin)"
     )
     _setting_options(parser)
+    parser.add_argument(
+        "--subdivision",
+        default="0",
+        metavar="N",
+        help="smooth the surface by N levels of Catmull-Clark, 0 to 2 (default: 0, just as the file has it)",
+    )
     _output_option(parser, "PNG")
 
 

@@ -9,7 +9,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from facemorph.core.morph import checked_curve
-from facemorph.core.picture import Look, checked_light, checked_luminance, checked_shading
+from facemorph.core.picture import (
+    Look,
+    checked_light,
+    checked_luminance,
+    checked_shading,
+    checked_subdivision,
+)
 from facemorph.core.pose import NEUTRAL, Pose, parsed_number, parsed_weight, state_of
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError
@@ -47,9 +53,13 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
 
 
 def look_from(options: argparse.Namespace) -> Look:
-    """The look of --shading, --light, --background, --equal-luminance and --per-picture."""
-    background = None if options.background is None else background_colour(options.background)
-    look = Look(checked_shading(options.shading), background=background, light=checked_light(options.light))
+    """The look of --shading, --subdivision and what stands round the face."""
+    look = Look(
+        checked_shading(options.shading),
+        background=None if options.background is None else background_colour(options.background),
+        subdivision=checked_subdivision(options.subdivision),
+        light=checked_light(options.light),
+    )
     if options.luminance is None:
         if options.per_picture:
             raise OptionError("--per-picture says what --equal-luminance holds for; give that too.")

@@ -15,6 +15,7 @@ LIGHT_RIGS: tuple[LightRig, ...] = get_args(LightRig)
 LuminanceOf = Literal["face", "picture"]
 Rgba = tuple[float, float, float, float]
 LARGEST_SIDE = 8192
+SUBDIVISIONS = (0, 1, 2)
 # What textures may be; Pillow would hand others, such as EPS, to other programs.
 PICTURE_FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP")
 DUSK: Rgba = (0.16, 0.17, 0.19, 1.0)
@@ -34,6 +35,7 @@ class Look:
     background    sRGB 0..1, with alpha; alpha 0 leaves the picture transparent there. None is the light's
                   own: mid grey for flat, dusk for others
     heat_max      distance at the heat map's red end in model units; None takes the largest in the pose
+    subdivision   levels of Catmull-Clark that the surface is refined by, 0 to 2; 0 draws the file's own
     light         studio (key, fill and rim of a portrait), window (large and soft, from one side), flat
                   (even, from the front, the same for every skin, a plain backdrop: for stimuli)
     exposure      factor on all light
@@ -47,6 +49,7 @@ class Look:
     wire: bool = False
     background: Rgba | None = None
     heat_max: float | None = None
+    subdivision: int = 0
     light: LightRig = "studio"
     exposure: float = 1.0
     luminance: float | None = None
@@ -83,6 +86,14 @@ def checked_luminance(luminance: float) -> float:
             f"equal luminance is a part of white's, {LEAST_LUMINANCE} to {MOST_LUMINANCE}; not {luminance:g}."
         )
     return luminance
+
+
+def checked_subdivision(level: int | str) -> int:
+    """`level`, or the one that a text means. Raises `OptionError` naming the choices."""
+    for known in SUBDIVISIONS:
+        if level in (known, str(known)):
+            return known
+    raise OptionError(f"subdivision is {SUBDIVISIONS[0]} to {SUBDIVISIONS[-1]} levels, not {level!r}.")
 
 
 def picture_size(text: str) -> tuple[int, int]:

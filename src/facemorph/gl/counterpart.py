@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from facemorph.core.arrays import Float32, Int32, Int64
-from facemorph.core.mesh import Mesh
+from facemorph.core.mesh import Labels, Mesh
 from facemorph.core.split import SplitVertices
 from facemorph.core.triangles import Triangles
 
@@ -65,6 +65,31 @@ def _split_by(
         split.position_of[parent], split.uvs[parent], drawn.reshape(corners.shape).astype(np.int32)
     )
     return finer, parent, known[uv_of]
+
+
+def in_order_of(mesh: Mesh, other: Mesh) -> Mesh:
+    """`other` with its polygons in the order of `mesh`'s, each begun where that one's begins."""
+    corners = corresponding_corners(mesh, other)
+    if np.array_equal(corners, np.arange(len(corners))):
+        return other
+    polygon_of = np.repeat(np.arange(other.polygon_count), np.diff(other.polygon_starts))
+    lasting = np.diff(mesh.polygon_starts) > 0
+    polygon = np.zeros(mesh.polygon_count, np.int64)
+    polygon[lasting] = polygon_of[corners[mesh.polygon_starts[:-1][lasting]]]
+    return replace(
+        other,
+        polygon_starts=mesh.polygon_starts,
+        corner_vertices=mesh.corner_vertices,
+        corner_uvs=None if other.corner_uvs is None else other.corner_uvs[corners],
+        corner_normals=None,
+        groups=_reordered(other.groups, polygon),
+        objects=_reordered(other.objects, polygon),
+        materials_used=_reordered(other.materials_used, polygon),
+    )
+
+
+def _reordered(labels: Labels | None, polygon: Int64) -> Labels | None:
+    return None if labels is None else Labels(labels.names, labels.index[polygon])
 
 
 def corresponding_corners(mesh: Mesh, other: Mesh) -> Int64:

@@ -53,7 +53,7 @@ class Shown:
 
 
 def new_morph(
-    path: str, ctx: moderngl.Context, programs: Programs, rig: Rig, surface: Surface, blend: Blend
+    path: str, ctx: moderngl.Context, programs: Programs, blend: Blend, rig: Rig, surface: Surface
 ) -> Morph:
     """The way that `path` names, "shader" or "cpu", to morph `rig` on `surface`. Raises `GraphicsError`."""
     if path == "shader":

@@ -1,4 +1,7 @@
-"""The CPU path: one blend in numpy, exact normals, one upload. Chosen where OpenGL itself runs on the CPU."""
+"""The CPU path: one blend in numpy, exact normals, one upload. Chosen where OpenGL itself runs on the CPU.
+
+A refined surface is blended as the file has it, and then refined: that is the least work.
+"""
 
 from __future__ import annotations
 
@@ -20,15 +23,16 @@ if TYPE_CHECKING:
 class CpuMorph:
     """Fills a surface's morphed buffer from a pose.
 
-    vertices  (V, 6) float32, positions and normals of the pose; None before the first
+    vertices  (n, 6) float32, positions and normals of the pose; None before the first
     """
 
     def __init__(self, ctx: moderngl.Context, rig: Rig, surface: Surface, blend: Blend) -> None:
         self._rig = rig
         self._blend = blend
-        self._normals_of = NormalsOf(surface.triangles.vertices, rig.neutral.vertex_count)
+        self._refined = surface.form.refined
+        self._normals_of = NormalsOf(surface.triangles.vertices, surface.mesh.vertex_count)
         self.vertices: Float32 | None = None
-        self._both = np.empty((rig.neutral.vertex_count, 6), np.float32)
+        self._both = np.empty((surface.mesh.vertex_count, 6), np.float32)
         self.bind(surface)
 
     def bind(self, surface: Surface) -> None:
@@ -42,6 +46,7 @@ class CpuMorph:
         positions = self._blend(self._rig.coefficients(pose), exactly=exactly)
         if offsets is not None:
             positions = positions + offsets
+        positions = self._refined(positions)
         for axis in range(3):
             # Column by column: numpy copies rows of three numbers one by one.
             self._both[:, axis] = positions[:, axis]

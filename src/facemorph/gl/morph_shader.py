@@ -9,6 +9,9 @@ Memory is bounded: the array has at most as many layers as fit in `MEMORY` bytes
 at least one; layers are filled when a shape first becomes active, and the least recently used one makes
 room. More active shapes than layers are added in several passes, each starting from the one before, so
 that there is no limit to how many may be active. Correctives are worked out in the shader too.
+
+Of a refined surface the neutral, the offsets and each layer are refined as they are filled; as refining is
+linear, a frame then costs what one of a mesh of that many vertices does.
 """
 
 from __future__ import annotations
@@ -19,7 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Float64, Int32, Int64
+from facemorph.core.arrays import Float32, Float64
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.gl.grids import grid_size, list_texture, padded
@@ -65,14 +68,15 @@ class ShaderMorph:
         self._rig = rig
         self._offsets: Float32 | None = None
         self._largest = int(ctx.info["GL_MAX_TEXTURE_SIZE"])
-        self._count = rig.neutral.vertex_count
+        self._mesh, self._refined = surface.mesh, surface.form.refined
+        self._count = self._mesh.vertex_count
         self._size = grid_size(self._count, self._largest)
         self._layers = self._layer_count(max_layers)
         self._layer_of: OrderedDict[int, int] = OrderedDict()
         self._listed: tuple[bytes, ...] = ()
         self._items: list[_Item] = []
         self.passes = 0
-        self._make_textures(rig, surface.triangles.vertices)
+        self._make_textures(surface)
         self._make_arrays(programs, surface)
 
     def _layer_count(self, asked: int | None) -> int:
@@ -80,22 +84,22 @@ class ShaderMorph:
         possible = min(int(self._ctx.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]), MEMORY // a_layer)
         return max(min(possible, len(self._rig.shapes), asked or possible), 1)
 
-    def _make_textures(self, rig: Rig, triangles: Int32) -> None:
+    def _make_textures(self, surface: Surface) -> None:
         ctx, size = self._ctx, self._size
         nearest = (ctx.NEAREST, ctx.NEAREST)
         self._base = np.ones((self._count, 4), np.float32)
-        self._base[:, :3] = rig.neutral.positions
+        self._base[:, :3] = self._mesh.positions
         self._neutral = list_texture(ctx, self._base, "f4", self._largest)
         self._results = [ctx.texture(size, 4, dtype="f4") for _ in range(2)]
         self._targets = [ctx.framebuffer([texture]) for texture in self._results]
         self._deltas = ctx.texture_array((*size, self._layers), 3, dtype="f4")
         self._active = ctx.texture((self._layers, 1), 4, dtype="f4")
         self._deltas.filter = nearest
-        self._rule_width = row_width(rig)
+        self._rule_width = row_width(self._rig)
         self._rules = ctx.texture((self._rule_width, self._layers), 4, dtype="f4")
         for texture in (*self._results, self._active, self._rules):
             texture.filter = nearest
-        rings, corners = vertex_rings(triangles, self._count)
+        rings, corners = surface.form.rings
         self._rings = list_texture(ctx, rings, "i4", self._largest)
         self._ring_corners = list_texture(ctx, corners, "i4", self._largest)
 
@@ -106,6 +110,9 @@ class ShaderMorph:
         self._copies: moderngl.VertexArray | None = None
         self._position_of: moderngl.Buffer | None = None
         self.bind(surface)
+
+    def _take_programs(self) -> None:
+        """Set what a morph of another size, with which the programs are shared, has set for itself."""
         _set(
             self._sum,
             base_positions=_BASE,
@@ -137,6 +144,7 @@ class ShaderMorph:
 
         The sum is always made in full here, so `exactly` changes nothing.
         """
+        self._take_programs()
         self._start_from(offsets)
         self._list_shapes(pose)
         _set(self._sum, t=float(pose.t), curve=_CURVES[pose.curve])
@@ -150,8 +158,8 @@ class ShaderMorph:
         """The texture where the sum starts: neutral, plus the offsets where there are any."""
         if offsets is self._offsets:
             return
-        neutral = self._rig.neutral.positions
-        self._base[:, :3] = neutral if offsets is None else neutral + offsets
+        neutral = self._mesh.positions
+        self._base[:, :3] = neutral if offsets is None else neutral + self._refined(offsets)
         self._neutral.write(padded(self._base, self._size))
         self._offsets = offsets
 
@@ -211,7 +219,7 @@ class ShaderMorph:
             if layer >= self._layers:
                 oldest = next(shape for shape in self._layer_of if shape not in wanted)
                 layer = self._layer_of.pop(oldest)
-            data = padded(self._rig.deltas[k], self._size)
+            data = padded(self._refined(self._rig.deltas[k]), self._size)
             self._deltas.write(data, viewport=(0, 0, layer, *self._size, 1))
             self._layer_of[k] = layer
         self._layer_of.move_to_end(k)
@@ -247,20 +255,6 @@ class ShaderMorph:
         ):
             texture.release()
         self._deltas.release()
-
-
-def vertex_rings(triangles: Int32, vertex_count: int) -> tuple[Int32, Int32]:
-    """For each vertex the triangles around it: rings (V, 2) start and count; corners (3 T, 2) the others.
-
-    Corner (a, b) of vertex v stands for the triangle (v, a, b), turning as the triangle does.
-    """
-    corner_of = triangles.reshape(-1).astype(np.int64)
-    order: Int64 = np.argsort(corner_of, kind="stable")
-    count = np.bincount(corner_of, minlength=vertex_count)
-    rings = np.stack([np.cumsum(count) - count, count], axis=1).astype(np.int32)
-    following = triangles[:, [1, 2, 0]].reshape(-1)[order]
-    before = triangles[:, [2, 0, 1]].reshape(-1)[order]
-    return rings, np.stack([following, before], axis=1).astype(np.int32)
 
 
 def _set(program: moderngl.Program, **values: object) -> None:

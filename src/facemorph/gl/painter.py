@@ -136,7 +136,7 @@ class Painter:
             "camera_position": tuple(float(value) for value in camera.position()),
             "background": look.backdrop,
             "backdrop_depth": lights.backdrop,
-            **shadow_uniforms(surface.mesh.bounds, camera, size, STRENGTH),
+            **shadow_uniforms(surface.form.of_file.bounds, camera, size, STRENGTH),
             "picture_size": (float(size[0]), float(size[1])),
             "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
             "ramp": 0,
@@ -312,7 +312,8 @@ class Painter:
     def _draw_wire(self, surface: Surface, scene: Uniforms) -> None:
         program = self._programs.get("face.vert", "wire.frag", "wire.geom", define=["HEM"])
         surface.polygon_edges().use(1)
-        assign(program, {**scene, "line_colour": (0.05, 0.055, 0.065, 0.85)})
+        line = {"line_colour": (0.05, 0.055, 0.065, 0.85), "finer": float(2**surface.form.level)}
+        assign(program, {**scene, **line})
         self._ctx.disable(self._ctx.CULL_FACE)
         # Towards the camera by a hair: the same triangles' depths may differ in the last bit.
         self._ctx.polygon_offset = -1.0, -1.0

@@ -9,12 +9,17 @@ Two views of one frame (a split view: the same face by two methods) take two ren
 Each keeps its own morphed buffer, so a view whose scene stays the same blends nothing while the other's
 changes, and turning linked cameras blends nothing at all; one renderer drawing both in turn would morph
 twice a frame. The rig's arrays are shared; what is there twice is the buffers of vertices and textures.
+
+Where a look asks for subdivision, another stage is drawn, of the refined surface; the file's own stays
+beside it, so that small pictures at level 0 change nothing. What is picked or measured is always the file's.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -23,20 +28,23 @@ from facemorph.core.arrays import Bool, Float32, UInt8
 from facemorph.core.blend import Blend
 from facemorph.core.camera import Camera
 from facemorph.core.lengths import displacements
-from facemorph.core.picture import Look, checked_size
+from facemorph.core.picture import Look, checked_size, checked_subdivision
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
-from facemorph.core.scene import Partner, Scene, colour_shares
+from facemorph.core.scene import Scene, colour_shares
 from facemorph.errors import GraphicsError, OptionError
 from facemorph.gl.describe import describe
-from facemorph.gl.drivers import Driver, drivers_of, uniforms_of
+from facemorph.gl.draw_clock import DrawClock
+from facemorph.gl.drivers import Driver, drivers_of
+from facemorph.gl.form import Form
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.luminance import EqualLuminance
-from facemorph.gl.morph import Morph, Shown, Stats, new_morph
+from facemorph.gl.morph import Stats, new_morph
 from facemorph.gl.painter import NOTHING_OF_FACE, Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
-from facemorph.gl.scenes import checked_scene, partner_surface
+from facemorph.gl.scenes import checked_scene
+from facemorph.gl.stage import Stage
 from facemorph.gl.surface import Surface
 from facemorph.gl.target import Target
 
@@ -66,32 +74,49 @@ class Renderer:
         self._target = Target(ctx)
         self._painter = Painter(ctx, self._programs, software=self.graphics.software)
         self._luminance = EqualLuminance(self)
+        self._clock = None if self.graphics.software else DrawClock(ctx)
         self._rig: Rig | None = None
-        self._surface: Surface | None = None
-        self._morph: Morph | None = None
+        self._forms: dict[int, Form] = {}
+        self._stages: dict[int, Stage] = {}
+        self._stage: Stage | None = None  # the one drawn last
         self._blend: Blend | None = None
         self._drivers: tuple[Driver, ...] = ()
-        self._shown: Shown | None = None
         self._drawn: tuple[Camera, tuple[int, int]] | None = None
         self._legend: Legend | None = None
-        self._followed: object = None
 
     def load(self, rig: Rig) -> None:
         """Take `rig` in place of the one before, which stays where this raises.
 
         Raises `GraphicsError` where OpenGL cannot hold the face.
         """
-        surface = Surface(self.ctx, rig.neutral)
         blend = Blend(rig.neutral.positions, rig.deltas)
-        try:
-            morph = new_morph(self.path, self.ctx, self._programs, rig, surface, blend)
-        except GraphicsError:
-            surface.release()
-            raise
+        forms = {level: form for level, form in self._forms.items() if form.of_file is rig.neutral}
+        forms[0] = forms.get(0) or Form.of(rig.neutral)
+        stage = self._new_stage(rig, forms[0], blend)
         self._unload()
-        self._rig, self._surface, self._blend, self._morph = rig, surface, blend, morph
+        self._rig, self._blend, self._forms = rig, blend, forms
+        self._stage, self._stages = stage, {0: stage}
         self._drivers = drivers_of(rig)
         self.stats = Stats()
+
+    def take(self, form: Form) -> None:
+        """Keep a form of the loaded face's mesh, made in another thread, for when its level is drawn.
+
+        One of another mesh is left alone. The first frame at a level without makes the form itself, which
+        takes from tenths of a second to seconds.
+        """
+        if self._rig is not None and form.of_file is self._rig.neutral and form.level:
+            self._forms = {0: self._forms[0], form.level: form}
+
+    @property
+    def surface(self) -> Surface | None:
+        """What was drawn last; None before a face is loaded."""
+        return None if self._stage is None else self._stage.surface
+
+    @property
+    def draw_secs(self) -> float | None:
+        """How long the graphics card drew at a frame lately; None where there is none, or not yet known."""
+        return None if self._clock is None else self._clock.secs
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -133,10 +158,11 @@ class Renderer:
 
         Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
         `MeshDataError` for arrays of another shape than the rig's, `CorrespondenceError` for a partner
-        with other polygons. A luminance is sought in further pictures, and may be refused (`gl.luminance`).
+        with other polygons, `OptionError` for a subdivision that is none or has too many vertices and for
+        a luminance that cannot be had (`gl.luminance` says when; it is sought in further pictures).
         """
         rig, _ = self._loaded()
-        size = checked_size(size)
+        size, level = checked_size(size), checked_subdivision(look.subdivision)
         scene = checked_scene(Scene.of(what), rig)
         if look.luminance is not None:
             look = self._luminance.settled(scene, camera, look, size)
@@ -145,25 +171,28 @@ class Renderer:
         hurried = quality == "fast" and self.graphics.software
         samples = 0 if hurried else min(SAMPLES, self.graphics.max_samples)
         try:
-            surface = self._surface_for(scene.partners)
-            self._update(scene, rig, exactly=exactly)
+            stage = self._stage_at(level)
+            self._take_partners(stage, scene)
+            surface = stage.surface
+            self.stats.morphs += stage.update(scene, self._drivers, exactly=exactly)
             look = self._with_heat_end(look, scene, rig)
             if scene.glow is not None:
                 surface.give("glow", scene.glow)
-            self._watch_insides(surface, hurried=hurried)
+            stage.watch_insides(hurried=hurried)
             framebuffer = self._target.prepare(size, samples)
             shares = colour_shares(rig.neutral, scene.partners)
-            self._painter.paint(
-                framebuffer,
-                surface,
-                camera,
-                look,
-                size,
-                glowing=scene.glow is not None,
-                hurried=hurried,
-                shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *surface.partners)],
-                face=self._shown.face if self._shown else NOTHING_OF_FACE,
-            )
+            with self._clock.running() if self._clock else nullcontext():
+                self._painter.paint(
+                    framebuffer,
+                    surface,
+                    camera,
+                    look,
+                    size,
+                    glowing=scene.glow is not None,
+                    hurried=hurried,
+                    shares=[shares.get(mesh, 0.0) for mesh in (rig.neutral, *stage.people)],
+                    face=stage.shown.face if stage.shown else NOTHING_OF_FACE,
+                )
             self._target.finish(framebuffer)
         finally:
             self._painter.restore(outer)
@@ -179,91 +208,72 @@ class Renderer:
 
         Of a face that has no skin by its materials' names, all that is solid. The picture itself is lost.
         """
-        _, surface = self._loaded()
+        _, stage = self._loaded()
         if self._drawn is None:
             raise GraphicsError("nothing has been drawn yet; call draw first.")
         camera, size = self._drawn
         outer = self.ctx.detect_framebuffer()
         try:
             framebuffer = self._target.prepare(size, min(SAMPLES, self.graphics.max_samples))
-            self._painter.paint_skin(framebuffer, surface, camera, size)
+            self._painter.paint_skin(framebuffer, stage.surface, camera, size)
             self._target.finish(framebuffer)
         finally:
             self._painter.restore(outer)
         return np.asarray(self._target.read()[..., 0] == 255)
 
     def positions(self) -> Float32:
-        """Positions (V, 3) of the face as drawn last, model units, offsets and all.
+        """Positions (V, 3) of the file's vertices as drawn last, model units, offsets and all.
 
         Made on the CPU, nothing is read back; the next call may change the array.
         """
-        rig, _ = self._loaded()
+        rig, stage = self._loaded()
         assert self._blend is not None
-        shown = self._shown
+        shown = stage.shown
         positions = self._blend(shown.coefficients if shown else rig.coefficients(Pose()))
         return positions if shown is None or shown.offsets is None else positions + shown.offsets
 
     def pick(self, x: float, y: float) -> Pick | None:
-        """What lies at pixel (x, y) of the picture drawn last, from its top left; None beside the face."""
-        _, surface = self._loaded()
+        """What lies at pixel (x, y) of the picture drawn last, from its top left; None beside the face.
+
+        It is looked for on the file's own polygons, at any subdivision.
+        """
+        self._loaded()
         if self._drawn is None:
             raise GraphicsError("nothing has been drawn yet; call draw first.")
         camera, size = self._drawn
-        return pick(self.positions(), surface.triangles, camera, size, x, y)
+        return pick(self.positions(), self._forms[0].triangles, camera, size, x, y)
 
-    def _loaded(self) -> tuple[Rig, Surface]:
-        if self._rig is None or self._surface is None:
+    def _loaded(self) -> tuple[Rig, Stage]:
+        if self._rig is None or self._stage is None:
             raise GraphicsError("no face is loaded; call load first.")
-        return self._rig, self._surface
+        return self._rig, self._stage
 
-    def _surface_for(self, partners: Sequence[Partner]) -> Surface:
-        """The surface to draw: with the partners' colours from when they are first asked for."""
-        rig, surface = self._loaded()
-        others = {p.rig.neutral: p.rig for p in partners if p.rig.neutral is not rig.neutral}
-        if not others or others.keys() == set(surface.partners):
-            return surface
-        made = partner_surface(self.ctx, rig, surface, tuple(others.values()))
-        assert self._morph is not None
-        self._morph.bind(made)
-        surface.release()
-        self._surface, self._shown = made, None
+    def _stage_at(self, level: int) -> Stage:
+        """The stage of a level, from now on the one that is drawn; beside the file's own one is kept."""
+        rig, _ = self._loaded()
+        if level not in self._stages:
+            assert self._blend is not None
+            form = self._forms.get(level) or Form.of(rig.neutral, level)
+            stage = self._new_stage(rig, form, self._blend)
+            for finer in [kept for kept in self._stages if kept]:
+                self._stages.pop(finer).release()
+            self._stages[level] = stage
+            self.take(form)
+        self._stage = self._stages[level]
+        return self._stage
+
+    def _new_stage(self, rig: Rig, form: Form, blend: Blend) -> Stage:
+        return Stage(self.ctx, rig, form, partial(new_morph, self.path, self.ctx, self._programs, blend))
+
+    def _take_partners(self, stage: Stage, scene: Scene) -> None:
+        if not stage.take_partners(scene.partners):
+            return
         textures = self._painter.textures
-        textures.keep(made.texture_paths())
+        textures.keep(stage.surface.texture_paths())
         # Read now, when people are chosen, and not under the pointer when a weight is first dragged.
-        for material in {material for part in made.parts for material in part.partners}:
+        for material in {material for part in stage.surface.parts for material in part.partners}:
             textures.of(material)
         self.stats.partners += 1
-        return made
-
-    def _update(self, scene: Scene, rig: Rig, *, exactly: bool) -> None:
-        """MORPH: only when a coefficient or the offsets changed since the last frame."""
-        coefficients = rig.coefficients(scene.pose)
-        shown = self._shown
-        if (
-            shown is not None
-            and shown.offsets is scene.offsets
-            and np.array_equal(shown.coefficients, coefficients)
-            and (shown.exactly or not exactly)
-        ):
-            return
-        assert self._morph is not None
-        self._shown = None
-        self._morph.update(scene.pose, scene.offsets, exactly=exactly)
-        face = uniforms_of(self._drivers, coefficients, scene.offsets)
-        self._shown = Shown(scene.pose, coefficients, scene.offsets, exactly, face)
-        self.stats.morphs += 1
-        self._followed = None
-
-    def _watch_insides(self, surface: Surface, *, hurried: bool) -> None:
-        """Let the surface know the pose, once insides may be left out; first asked for when it hurries."""
-        vertices = self._morph.vertices if self._morph is not None else None
-        if vertices is None:
-            return
-        if hurried:
-            surface.find_shell()
-        if surface.insides is not None and self._followed is not surface.insides:
-            surface.insides.follow(vertices[:, :3], vertices[:, 3:])
-            self._followed = surface.insides
 
     def _with_heat_end(self, look: Look, scene: Scene, rig: Rig) -> Look:
         """`look` with the heat map's end settled, what it measures from uploaded, and its legend made."""
@@ -272,7 +282,7 @@ class Renderer:
             return look
         reference = rig.neutral.positions if scene.reference is None else scene.reference
         title = DISPLACEMENT if scene.reference is None else DIFFERENCE
-        self._loaded()[1].give("reference", reference)
+        self._loaded()[1].surface.give("reference", reference)
         unit, end = rig.info.unit, look.heat_max
         if end is None or not end > 0.0:
             largest = float(displacements(self.positions(), reference).max(initial=0.0))
@@ -284,12 +294,11 @@ class Renderer:
     def _unload(self) -> None:
         self._painter.textures.forget()
         self._luminance.forget()
-        for held in (self._morph, self._surface):
-            if held is not None:
-                held.release()
-        self._rig = self._surface = self._morph = self._blend = None
-        self._drivers = ()
-        self._shown = self._drawn = self._legend = None
+        for stage in self._stages.values():
+            stage.release()
+        self._rig = self._stage = self._blend = None
+        self._forms, self._stages, self._drivers = {}, {}, ()
+        self._drawn = self._legend = None
 
     def release(self) -> None:
         """Give everything back to the context; the context itself is its maker's."""

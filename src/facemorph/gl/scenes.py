@@ -55,4 +55,4 @@ def partner_surface(ctx: moderngl.Context, rig: Rig, surface: Surface, partners:
         if unlike is not None:
             hint = "Colours are mixed between faces of one topology only; the built-in people are."
             raise CorrespondenceError(partner.info.name, unlike.problem, cause=unlike.cause, hint=hint)
-    return Surface(ctx, rig.neutral, [partner.neutral for partner in partners], kin=surface)
+    return Surface(ctx, surface.form, [partner.neutral for partner in partners])

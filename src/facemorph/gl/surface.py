@@ -16,13 +16,12 @@ import numpy as np
 from facemorph.core.arrays import Bool, Float32, Int32, Int64, UInt8
 from facemorph.core.mesh import Material, Mesh
 from facemorph.core.normals import vertex_normals
-from facemorph.core.split import split_vertices
-from facemorph.core.triangles import Triangles, triangulated
-from facemorph.gl.counterpart import counterparts
-from facemorph.gl.hem import Hem, hem_of
+from facemorph.core.triangles import Triangles
+from facemorph.gl.counterpart import counterparts, in_order_of
+from facemorph.gl.form import Form, OfTriangles, materials_of, see_through
+from facemorph.gl.hem import Hem
 from facemorph.gl.insides import Insides
-from facemorph.gl.materials import PLAIN
-from facemorph.gl.shell import Shell, shell_of
+from facemorph.gl.shell import Shell
 
 if TYPE_CHECKING:
     import moderngl
@@ -55,11 +54,12 @@ class Part:
 
 
 class Surface:
-    """G drawn vertices and T triangles of a mesh of V positions.
+    """G drawn vertices and T triangles of a file's mesh, or of the finer one of V positions in its `form`.
 
-    With `partners`, meshes of the same polygons, the vertices carry their texture coordinates and colours
-    too; `kin` is a surface of the same mesh, whose triangles and hem are taken over.
+    With `partners`, meshes of the file's polygons, the vertices carry their texture coordinates and colours
+    too. What comes by vertex comes by the file's vertices, and is refined with the mesh.
 
+    mesh         what is drawn; `partners` have its polygons
     position_of  (G,) int32, the position each drawn vertex is a copy of
     order        (T,) the mesh's triangles in the order they are drawn
     morphed      buffer of (G, 6) float32: position and normal of each drawn vertex
@@ -67,17 +67,15 @@ class Surface:
     caps         first index and number of indices of the triangles that close the shell's rims
     """
 
-    def __init__(
-        self, ctx: moderngl.Context, mesh: Mesh, partners: Sequence[Mesh] = (), *, kin: Surface | None = None
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, of: Mesh | Form, partners: Sequence[Mesh] = ()) -> None:
         self._ctx = ctx
-        self.mesh, self.partners = mesh, tuple(partners)
-        self.triangles: Triangles = kin.triangles if kin else triangulated(mesh)
-        split, others = counterparts(mesh, self.triangles, split_vertices(mesh, self.triangles), partners)
-        self._materials = [_materials(mesh, self.triangles.polygon)]
-        self._materials += [_materials(other.mesh, other.polygon) for other in others]
-        self._clear = _see_through(*self._materials[0])
-        self.hem: Hem | None = kin.hem if kin else hem_of(mesh, self.triangles.vertices, self._clear)
+        self.form = of if isinstance(of, Form) else Form.of(of)
+        self.mesh, self.triangles = self.form.mesh, self.form.triangles
+        self.partners = _at_the_level_of(self.form, partners)
+        split, others = counterparts(self.mesh, self.triangles, self.form.split, self.partners)
+        self._materials = [self.form.materials]
+        self._materials += [materials_of(other.mesh, other.polygon) for other in others]
+        self.hem: Hem | None = self.form.hem
         self._partner_uvs = [other.uvs for other in others]
         self.position_of: Int32 = split.position_of
         self.drawn_count = len(split.position_of)
@@ -113,12 +111,10 @@ class Surface:
         if self._shell_sought:
             return
         self._shell_sought = True
-        positions, triangles = self.mesh.positions, self.triangles.vertices
-        apart = self._clear if self.hem is None else self._clear | self.hem.triangles
-        shell = shell_of(positions, triangles, apart)
-        if shell is not None:
-            self._arrange(shell)
-            self.insides = Insides(self._ctx, positions, vertex_normals(positions, triangles))
+        if self.form.shell is not None:
+            self._arrange(self.form.shell)
+            positions = self.mesh.positions
+            self.insides = Insides(self._ctx, positions, vertex_normals(positions, self.triangles.vertices))
 
     def vertex_array(self, program: moderngl.Program) -> moderngl.VertexArray:
         """The surface bound to the attributes that `program` reads."""
@@ -141,7 +137,7 @@ class Surface:
         return self._partner_uvs[partner] is None
 
     def give(self, name: str, values: Float32) -> None:
-        """Set `glow` (V,) or `reference` (V, 3); the array that was given last is not uploaded again."""
+        """Set `glow` or `reference` of the file's vertices; what was given last is not uploaded again."""
         if self._given.get(name) is values:
             return
         self._given[name] = values
@@ -150,7 +146,7 @@ class Surface:
             self._buffers[name].write(self._drawn_values(values).tobytes() or b"\0")
 
     def _drawn_values(self, values: Float32) -> Float32:
-        return np.ascontiguousarray(values[self.position_of], np.float32)
+        return np.ascontiguousarray(self.form.refined(values)[self.position_of], np.float32)
 
     def _buffer(self, name: str) -> moderngl.Buffer:
         if name not in self._buffers:
@@ -189,9 +185,10 @@ class Surface:
         return {material.texture for material in materials if material.texture is not None}
 
     def polygon_edges(self) -> moderngl.Texture:
-        """For each triangle in drawing order, which of its edges belong to a polygon: bits 1, 2 and 4."""
+        """For each triangle in drawing order, which edges are the file's polygons' own: bits 1, 2 and 4."""
         if self._edges is None:
-            bits = polygon_edge_bits(self.mesh, self.triangles)[self.order]
+            refinement = self.form.refinement
+            bits = polygon_edge_bits(self.mesh, self.triangles, refinement.on_edge)[self.order]
             width = min(4096, max(len(bits), 1))
             rows = -(-max(len(bits), 1) // width)
             padded = np.zeros(width * rows, np.uint8)
@@ -214,8 +211,18 @@ class Surface:
             buffer.release()
 
 
-def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
-    """(T,) bits: bit i is set where the edge from corner i to corner i + 1 is one of the polygon's own."""
+def _at_the_level_of(form: Form, partners: Sequence[Mesh]) -> tuple[Mesh, ...]:
+    """Partners, meshes of the file's polygons, refined as the file's mesh is."""
+    if not form.level:
+        return tuple(partners)
+    return tuple(form.refinement.finer(in_order_of(form.of_file, partner)) for partner in partners)
+
+
+def polygon_edge_bits(mesh: Mesh, triangles: Triangles, shown: Bool | None = None) -> UInt8:
+    """(T,) bits: bit i is set where the edge from corner i to corner i + 1 is one of the polygon's own.
+
+    shown   (C,) of the edges that leave the mesh's corners, those that count; None for all
+    """
     starts = mesh.polygon_starts.astype(np.int64)
     first = starts[triangles.polygon]
     last = starts[triangles.polygon + 1] - 1
@@ -224,15 +231,13 @@ def polygon_edge_bits(mesh: Mesh, triangles: Triangles) -> UInt8:
     for i in range(3):
         here, there = corners[:, i], corners[:, (i + 1) % 3]
         following = np.where(here == last, first, here + 1)
-        bits |= (there == following).astype(np.uint8) << i
+        own = there == following
+        bits |= (own if shown is None else own & shown[here]).astype(np.uint8) << i
     return bits
 
 
-_OfTriangles = tuple[Sequence[Material], Int64]
-
-
 def _parts(
-    materials: Sequence[_OfTriangles], hem: Hem | None, shell: Shell | None
+    materials: Sequence[OfTriangles], hem: Hem | None, shell: Shell | None
 ) -> tuple[tuple[Part, ...], Int64]:
     """The runs to draw, opaque ones first, and the order of triangles that makes them.
 
@@ -240,7 +245,7 @@ def _parts(
     """
     own, of_triangle = materials[0]
     in_hem = np.zeros(len(of_triangle), bool) if hem is None else hem.triangles
-    key = (_see_through(own, of_triangle).astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
+    key = (see_through(own, of_triangle).astype(np.int64) * 2 + in_hem) * len(own) + of_triangle
     for known, of_partner in materials[1:]:
         # Numbered anew each time: products of many people's counts of materials would overflow.
         key = np.unique(key, return_inverse=True)[1] * len(known) + of_partner
@@ -255,18 +260,3 @@ def _parts(
         faded, closed = bool(in_hem[triangle]), bool(in_shell[triangle])
         parts.append(Part(material, start, number, faded, tuple(partners), closed))
     return tuple(parts), order
-
-
-def _see_through(materials: Sequence[Material], of_triangle: Int64) -> Bool:
-    """(T,) whether a triangle's material lets light through: hair, lashes, tears."""
-    clear = np.array([material.opacity < 1.0 for material in materials])
-    return np.asarray(clear[of_triangle])
-
-
-def _materials(mesh: Mesh, polygon: Int32) -> _OfTriangles:
-    """The materials in use and, for each triangle, which one."""
-    used = mesh.materials_used
-    if used is None or not used.names:
-        return (PLAIN,), np.zeros(len(polygon), np.int64)
-    known = [mesh.materials.get(name, Material(name, diffuse=PLAIN.diffuse)) for name in used.names]
-    return (*known, PLAIN), np.where(used.index < 0, len(known), used.index)[polygon].astype(np.int64)

@@ -3,6 +3,14 @@
 
 #ifdef LIT
 #include "lib/light.glsl"
+#ifdef SKIN
+#include "lib/skin.glsl"
+in float bend;                         // how much the surface bends, for a head of 30
+#endif
+#ifdef WRINKLES
+#include "lib/wrinkles.glsl"
+out vec3 surface_wrinkles;
+#endif
 #endif
 
 uniform mat4 clip_from_model;
@@ -17,10 +25,16 @@ out vec3 surface_normal;
 #ifdef LIT_BY_VERTEX
 out vec3 surface_light;
 out vec3 surface_half;                 // halfway between the eye and the highlight's light
+#ifdef SKIN
+out float surface_shine;               // what the highlight's lobes are multiplied with
+#endif
 #else
 out vec3 surface_view;
-out vec3 surface_position;              // the model's space
+#ifdef SKIN
+out float surface_bend;
 #endif
+#endif
+out vec3 surface_position;             // the model's space
 #endif
 
 #if defined(TEXTURED) || defined(STENCILLED)
@@ -65,13 +79,25 @@ invariant gl_Position;
 void main() {
     surface_normal = normal * side;
 #ifdef LIT
+    surface_position = position;
     vec3 view = towards_camera(position);
 #ifdef LIT_BY_VERTEX
+#ifdef SKIN
+    surface_light = light_in_skin(surface_normal, view, vec3(0.0), bend);
+    surface_half = normalize(key_direction + view);
+    surface_shine = mirrored(surface_normal, view, surface_half, key_direction);
+#else
     surface_light = diffuse_light(surface_normal, view);
     surface_half = normalize(shine_direction + view);
+#endif
 #else
     surface_view = view;
-    surface_position = position;
+#ifdef SKIN
+    surface_bend = bend;
+#endif
+#endif
+#ifdef WRINKLES
+    surface_wrinkles = set_weights(uv);
 #endif
 #endif
 #if defined(TEXTURED) || defined(STENCILLED)

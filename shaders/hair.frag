@@ -12,7 +12,12 @@
 #include "lib/glow.glsl"
 #endif
 
+#ifdef LIT_BY_VERTEX
+in vec3 surface_light;
+in vec3 surface_half;
+#else
 in vec3 surface_view;
+#endif
 in vec3 surface_position;
 
 uniform float side;                    // 1 for the outside, -1 for the inside
@@ -20,66 +25,66 @@ uniform float side;                    // 1 for the outside, -1 for the inside
 const float FIRST_SHIFT = -0.10;
 const float SECOND_SHIFT = 0.14;
 const float INSIDE = 0.60;             // of the light is left underneath
+// Alpha is kept a little above what is thrown away, so that thin ends fade and hide nothing after them.
+const float THINNEST = 0.18;
 
 #ifdef TEXTURED
-vec3 unit(vec3 v) {
-    float length2 = dot(v, v);
-    return length2 > 1e-20 ? v * inversesqrt(length2) : vec3(0.0, 1.0, 0.0);
-}
-
-// Along the strands, across the surface's smooth normal. Where u stays the same is a strand, but one that
-// breaks at every edge where strands spread; across where v stays the same hardly breaks. Half of each.
+// Along the strands towards their roots, across the surface's smooth normal: away from where v stays the same. Where u stays
+// the same would be a strand too, but one that breaks at every edge where strands spread.
 vec3 strand(vec3 n) {
-    vec3 right = dFdx(surface_position);
-    vec3 up = dFdy(surface_position);
-    vec2 uv_right = dFdx(surface_uv);
-    vec2 uv_up = dFdy(surface_uv);
-    float turn = uv_right.y * uv_up.x - uv_up.y * uv_right.x;
-    vec3 along = right * uv_up.x - up * uv_right.x;
-    along = unit((turn < 0.0 ? -along : along) - n * dot(turn < 0.0 ? -along : along, n));
-    vec3 across = unit(cross(right * uv_up.y - up * uv_right.y, n));
-    return unit(along + (dot(along, across) < 0.0 ? -across : across));
+    vec3 level = dFdx(surface_position) * dFdy(surface_uv.y) - dFdy(surface_position) * dFdx(surface_uv.y);
+    vec3 along = cross(n, level);
+    return along * inversesqrt(max(dot(along, along), 1e-20));
 }
 
-float cone(vec3 along, vec3 n, vec3 half_way, float shift, float exponent) {
-    float towards = dot(normalize(along + shift * n), half_way);
-    return pow(max(1.0 - towards * towards, 0.0), 0.5 * exponent);
+// How far off the cones the light is, as the squared sine of its angle to the strand; t + shift n is
+// nearly of length one.
+float off_cone(float along, float across, float shift) {
+    float towards = along + shift * across;
+    return max(1.0 - towards * towards, 0.0);
 }
 
-vec3 shine(vec3 paint, vec3 n, vec3 view) {
-    vec3 along = strand(n);
+vec3 shine(vec3 paint, vec3 n, vec3 half_way) {
+    float along = dot(strand(n), half_way);
+    float across = dot(n, half_way);
     // Strands differ, and so do their shifts. Their tones are relative to the material's colour, which is
     // the lightest one's, so this holds for black hair too.
     float tone = sqrt(clamp(paint.g / max(albedo.g, 1e-4), 0.0, 1.0));
-    float own = 0.3 * (tone - 0.5);
-    vec3 key_half = normalize(key_direction + view);
-    float reached = smoothstep(-0.3, 0.7, dot(n, key_direction));
-    float first = cone(along, n, key_half, FIRST_SHIFT + own, sharpness);
-    float second = cone(along, n, key_half, SECOND_SHIFT + own, sharpness * 0.25);
+    float own = 0.3 * tone - 0.15;
+    // Powers 20 and 4 of the sine's square, by products: a power costs as much as all the rest.
+    float first = off_cone(along, across, FIRST_SHIFT + own);
+    float second = off_cone(along, across, SECOND_SHIFT + own);
+    first *= first;
+    second *= second;
+    float first4 = first * first;
+    float first16 = first4 * first4;
+    first16 *= first16;
+    float reached = gloss * tone * smoothstep(-0.3, 0.7, dot(n, key_direction));
     vec3 dyed = sqrt(albedo) * (0.4 + 0.6 * tone);
-    vec3 light = key_light * reached * (first * 0.10 * tone + second * 0.16 * dyed * tone);
-    vec3 rim_half = normalize(rim_direction + view);
-    float behind = smoothstep(0.0, 0.6, dot(n, rim_direction)) * cone(along, n, rim_half, 0.0, sharpness * 0.5);
-    return gloss * (light + rim_light * behind * 0.10 * dyed * tone);
+    return key_light * reached * (first16 * first4 * 0.10 + second * second * 0.16 * dyed);
 }
 #endif
 
 void main() {
     vec4 paint = painted();
 #ifdef CUTOUT
-    // Thin ends fade; what hardly covers must not hide what comes after it.
-    if (paint.a < 0.18) {
+    if (paint.a < THINNEST) {
         discard;
     }
 #endif
     vec3 n = normalize(surface_normal);
+#ifdef LIT_BY_VERTEX
+    vec3 light = surface_light;
+    vec3 half_way = surface_half;
+#else
     vec3 view = normalize(surface_view);
-    // A strand seen from its dark side still shows light: surfaces of hair never end sharply.
     vec3 light = diffuse_light(n, view);
+    vec3 half_way = normalize(key_direction + view);
+#endif
     vec3 seen = paint.rgb * light;
 #ifdef TEXTURED
     if (side > 0.0) {
-        seen += shine(paint.rgb, n, view);
+        seen += shine(paint.rgb, n, half_way);
     } else {
         seen *= INSIDE;
     }

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from verify_eyes import check_eyes
+
 PEOPLE = ("ada", "ben", "mei", "kofi", "zola", "omar")
 STATES = ("neutral", "happy", "sad", "angry", "surprised", "disgusted", "afraid")
 GROUPS = [
@@ -68,6 +70,12 @@ def read_triangles(tail: str) -> np.ndarray:
     faces = [line.split()[1:] for line in tail.splitlines() if line.startswith("f ")]
     corners = [[int(corner.split("/")[0]) - 1 for corner in face] for face in faces]
     return np.array([[face[0], face[k], face[k + 1]] for face in corners for k in range(1, len(face) - 1)])
+
+
+def triangles_by_group(tail: str) -> dict[str, np.ndarray]:
+    """Triangles (t, 3) of each group."""
+    groups = (group.split("\n", 1) for group in ("\n" + tail).split("\ng ")[1:])
+    return {name: read_triangles(faces) for name, faces in groups}
 
 
 def check_shapes(folder: Path, report: Report, points: dict, tail: str, triangles: np.ndarray):
@@ -136,6 +144,7 @@ def check_person(folder: Path, report: Report, tail: str, triangles: np.ndarray)
     vertices = len(points["neutral"])
     check_units(folder, report, vertices)
     marks = check_description(folder, report, vertices)
+    check_eyes(folder, report, points, triangles_by_group(tail))
     travel = max(np.linalg.norm(p - points["neutral"], axis=1).max() for p in points.values())
     size = sum(path.stat().st_size for path in folder.iterdir()) / MEGABYTE
     low, high = points["neutral"].min(0), points["neutral"].max(0)

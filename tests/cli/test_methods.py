@@ -57,7 +57,8 @@ def test_bilinear_is_2_10_between_the_four_key_frames(ada, tmp_path):
     frames = [[rig.positions({name: 1.0}) for name in ("happy", "angry")] for rig in (ada, ben)]
     for s, t in ((0, 0), (1, 0), (0, 1), (1, 1), (0.3, 0.7)):
         arguments = ["--bilinear", "ada,ben", "happy,angry", "--s", str(s), "--t", str(t)]
-        np.testing.assert_allclose(exported(tmp_path, *arguments), bilinear(frames, s, t), atol=2e-5)
+        plain = exported(tmp_path, *arguments, "--linear")
+        np.testing.assert_allclose(plain, bilinear(frames, s, t), atol=2e-5)
 
 
 def test_everything_adds_up(ada, tmp_path):
@@ -136,7 +137,7 @@ def test_two_people_of_different_topology_are_refused_with_the_cause(capsys, tmp
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ('"vertices": 10590', '"vertices": 12'),
+        ('"vertices": ', '"vertices": 9'),
         ('"vertex": 0', '"vertex": 99999'),
         ('"format": "facemorph handles 1"', '"format": "other"'),
         ('"kernel": "r"', '"kernel": "gauss"'),

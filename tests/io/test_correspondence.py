@@ -38,16 +38,22 @@ def shuffled(mesh: Mesh, seed: int) -> tuple[Mesh, np.ndarray]:
     old = rng.permutation(mesh.vertex_count)
     new = np.empty_like(old)
     new[old] = np.arange(len(old))
-    size = int(mesh.polygon_starts[1])
+    starts, sizes = mesh.polygon_starts[:-1], np.diff(mesh.polygon_starts)
     rows = rng.permutation(mesh.polygon_count)
-    corners = new[mesh.corner_vertices].reshape(-1, size)[rows].astype(np.int32)
-    uvs = None if mesh.corner_uvs is None else mesh.corner_uvs.reshape(-1, size)[rows]
-    turned = np.stack(
-        [np.roll(row, k) for row, k in zip(corners, rng.integers(0, size, len(rows)), strict=True)]
+    turns = np.zeros(len(rows), int) if mesh.corner_uvs is not None else rng.integers(0, 4, len(rows))
+    taken = np.concatenate(
+        [starts[row] + np.roll(np.arange(sizes[row]), k) for row, k in zip(rows, turns, strict=True)]
     )
-    if uvs is not None:
-        turned, uvs = corners, uvs.ravel()
-    return replace(mesh, positions=mesh.positions[old], corner_vertices=turned.ravel(), corner_uvs=uvs), new
+    return (
+        replace(
+            mesh,
+            positions=mesh.positions[old],
+            polygon_starts=np.concatenate([[0], np.cumsum(sizes[rows])]).astype(np.int32),
+            corner_vertices=new[mesh.corner_vertices[taken]].astype(np.int32),
+            corner_uvs=None if mesh.corner_uvs is None else mesh.corner_uvs[taken],
+        ),
+        new,
+    )
 
 
 @pytest.mark.parametrize("seed", range(4))

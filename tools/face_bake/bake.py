@@ -12,6 +12,7 @@ from .parts_eyes_picture import eye_picture
 from .people import PEOPLE, Person
 from .recipes import EXPRESSIONS
 from .regions import build_regions
+from .skin_pictures import SkinPictures
 from .source import Source
 from .textures import Painter
 from .write import layout_text, write_mtl, write_obj, write_toml
@@ -28,6 +29,7 @@ class Bakery:
         self._source = Source(wheel)
         self._head = Head(self._source)
         self._painter = Painter(self._head, skin_size)
+        self._skin_pictures = SkinPictures(self._painter)
         self._neutral_layout = layout_text(self._head, textured=True)
         self._shape_layout = layout_text(self._head, textured=False)
         self._landmarks = find_landmarks(self._head)
@@ -43,12 +45,15 @@ class Bakery:
             layout = self._shape_layout if recipe else self._neutral_layout
             write_obj(folder / f"{expression}.obj", f"{person.name}, {expression}", points, layout)
         write_shapes(folder / "shapes.npz", body, self._source.arkit_names(), self._regions)
-        write_mtl(folder / "face.mtl", person.look)
-        write_toml(folder / "face.toml", person, [e for e in EXPRESSIONS if e != "neutral"], self._landmarks)
+        write_mtl(folder / "face.mtl", person)
+        expressions = [name for name in EXPRESSIONS if name != "neutral"]
+        wrinkles = self._skin_pictures.toml_lines(person)
+        write_toml(folder / "face.toml", person, expressions, self._landmarks, wrinkles)
         self._pictures(person, body, folder)
 
     def _pictures(self, person: Person, body: Body, folder: Path):
         self._painter.skin(body).save(folder / "skin.jpg", quality=JPEG_QUALITY, optimize=True)
+        self._skin_pictures.save(body, folder)
         eye = eye_picture(person.look)
         eye.save(folder / "eye.jpg", quality=EYE_QUALITY, subsampling=0, optimize=True)
         for name, paint in (("teeth", teeth_picture), ("gum", gum_picture), ("tongue", tongue_picture)):

@@ -48,12 +48,10 @@ SMALLEST = 0.003
 
 @dataclass(frozen=True)
 class MadeCorrective:
-    """A shape's name, its offsets (V, 3) in centimetres, and the shapes of its hat or its product."""
+    """A shape's name and its offsets (V, 3) in centimetres."""
 
     name: str
     offsets: np.ndarray
-    hat: str | None = None
-    product: tuple[str, ...] = ()
 
 
 def recipes_by_name(arkit_names: list[str]) -> dict[str, dict]:
@@ -61,6 +59,17 @@ def recipes_by_name(arkit_names: list[str]) -> dict[str, dict]:
     expressions = {name: recipe for name, recipe in EXPRESSIONS.items() if recipe}
     units = {name: recipe for name, (_, recipe) in FACS.items()}
     return {**expressions, **units, **{name: arkit_recipe(name) for name in arkit_names}}
+
+
+def half_way(name: str) -> str:
+    """The name of a shape's in-between; shapes of one recipe share it."""
+    recipes = recipes_by_name([one for one in HALF_WAY if one not in {*EXPRESSIONS, *FACS}])
+    return f"{next(one for one in HALF_WAY if recipes[one] == recipes[name])} half way"
+
+
+def together(one: str, other: str) -> str:
+    """The name of what mends two shapes."""
+    return f"{one} and {other}"
 
 
 def _scaled(recipe: dict, part: float) -> dict:
@@ -81,14 +90,14 @@ def correctives(body: Body, arkit_names: list[str]) -> list[MadeCorrective]:
 
     moves = {name: at(recipe) for name, recipe in recipes.items()}
     halves = [
-        MadeCorrective(f"{name} half way", at(_scaled(recipes[name], 0.5)) - 0.5 * moves[name], hat=name)
+        MadeCorrective(half_way(name), at(_scaled(recipes[name], 0.5)) - 0.5 * moves[name])
         for name in HALF_WAY
+        if half_way(name).startswith(f"{name} ")
     ]
     pairs = [
         MadeCorrective(
-            f"{one} and {other}",
+            together(one, other),
             at(_both(recipes[one], recipes[other])) - moves[one] - moves[other],
-            product=(one, other),
         )
         for one, other in PAIRS
     ]

@@ -17,7 +17,7 @@ FACE = {
             (0.28, 6.82): (0.004, 0.020, 0.004),
         },
         domain="cheeks",
-        folds=(Fold(NASOLABIAL_TOP, 0.008, 0.07),),
+        folds=(Fold(NASOLABIAL_TOP, 0.006, 0.07),),
     ),
     # Levator labii superioris alaeque nasi: wings up, the nose shortens, its sides bunch.
     "sneer": Field(
@@ -26,10 +26,10 @@ FACE = {
         lower={0.0: (0, 0.008, 0.0), 0.5: (0.0, 0.010, 0.0)},
         skin=CHIN_STILL
         | {
-            (0.165, 6.87): (0.006, 0.048, 0.002),
+            (0.165, 6.87): (0.000, 0.046, 0.000),
             (0.0, 6.92): (0, 0.014, -0.006),
             (0.0, 6.80): (0, 0.016, -0.004),
-            (0.09, 7.07): (-0.004, 0.036, 0.012),
+            (0.09, 7.07): (0.000, 0.032, 0.016),
             (0.10, 7.22): (-0.010, 0.012, 0.020),
             (0.0, 7.20): (0, 0.010, 0.008),
             (0.0, 7.38): (0, -0.030, 0.010),
@@ -42,7 +42,7 @@ FACE = {
             (0.0, 6.45): (0, 0, 0),
         },
         domain="nose",
-        folds=(Fold(NASOLABIAL_TOP, 0.016, 0.06),),
+        folds=(Fold(NASOLABIAL_TOP, 0.006, 0.065),),
     ),
     # Frontalis, inner part.
     "browInner": Field(

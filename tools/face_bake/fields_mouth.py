@@ -27,7 +27,7 @@ MOUTH = {
             (0.55, 6.45): (0.0, 0.01, 0.0),
             (0.0, 6.92): (0, -0.004, -0.004),
         },
-        folds=(Fold(NASOLABIAL, 0.022, 0.07),),
+        folds=(Fold(NASOLABIAL, 0.013, 0.075),),
     ),
     # Levator labii superioris: the upper lip up, most beside the middle.
     "upper": Field(
@@ -45,7 +45,7 @@ MOUTH = {
             (0.0, 6.92): (0, 0.004, 0),
             (0.34, 6.66): (0.004, 0.014, 0.0),
         },
-        folds=(Fold(NASOLABIAL_TOP, 0.012, 0.06),),
+        folds=(Fold(NASOLABIAL_TOP, 0.009, 0.065),),
     ),
     # Depressor anguli oris: corners down, the middle stays.
     "frown": Field(

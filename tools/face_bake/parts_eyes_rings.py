@@ -11,14 +11,15 @@ from .cage import HEAD, SOCKET_A, Cage, undirected_edges
 from .parts_eyes_ball import EYE_VERTICES, SCALE, fit_sphere
 from .parts_eyes_lids import lash_grids
 from .source import BASE_VERTICES, BaseMesh
+from .strips import catmull_rom
 
 RINGS = 4
 # How far above the ball each ring has to be, in decimetres, from the innermost on; None: as it is.
 THICKNESS = (None, None, 0.008, 0.015, 0.019)
 # How wet each of the first rings is.
-WET = (1.0, 1.0, 0.6)
-# Lashes grow so far above the ball at least, in decimetres.
-LASH_ROOTS = 0.0125
+WET = (1.0, 1.0, 0.8, 0.5)
+# Lashes grow so far from the third to the fourth ring, above the cage; farther ones are let be.
+ROOTS, ABOVE_SKIN, FARTHEST_ROOT = 0.9, 0.002, 0.07
 # So far from the opening the skin follows, in decimetres, and after so many steps smoothly.
 REACH, SMOOTHING_STEPS = 0.065, 40
 
@@ -81,13 +82,12 @@ class LidRings:
                 if least is not None:
                     lift[ring] = np.maximum(radius * SCALE + least - distance[ring], 0)
             lift = self._spread(lift, points, side)
-            for grid in self.lashes[side]:
-                lift[grid] = np.maximum(lift[grid[0]], radius * SCALE + LASH_ROOTS - distance[grid[0]])
             points += (lift / distance)[:, None] * away
+            self._root_lashes(points, side, centre)
         return points
 
     def _spread(self, lift: np.ndarray, points: np.ndarray, side: int) -> np.ndarray:
-        """Relax the lift over the skin around the rings; lashes take that of the nearest skin."""
+        """Relax the lift over the skin around the rings."""
         rings = np.concatenate(self._rings[side])
         near = cKDTree(points[rings]).query(points[self._edges.ravel()])[0] < REACH
         free = np.setdiff1d(self._edges.ravel()[near], rings)
@@ -97,7 +97,16 @@ class LidRings:
         for _ in range(SMOOTHING_STEPS):
             mean = np.bincount(here, lift[there], minlength=len(points)) / count
             lift[free] = mean[free]
-        edge = np.concatenate(self._rings[side][2:4])
-        for grid in self.lashes[side]:
-            lift[grid[0]] = lift[edge][cKDTree(points[edge]).query(points[grid[0]])[1]]
         return lift
+
+    def _root_lashes(self, points: np.ndarray, side: int, centre: np.ndarray):
+        """Move lashes, in place, until they grow on the edges of the thickened lids."""
+        ring, outer = (points[self.columns[side][:, k]] for k in (2, 3))
+        edge = (1 - ROOTS) * ring + ROOTS * outer
+        edge += ABOVE_SKIN * (edge - centre) / np.linalg.norm(edge - centre, axis=1, keepdims=True)
+        closed = np.concatenate([edge, edge[:1]])
+        finer = catmull_rom(len(closed), np.linspace(0, len(edge), 20 * len(edge))) @ closed
+        for grid in self.lashes[side]:
+            distance, nearest = cKDTree(finer).query(points[grid[0]])
+            share = np.clip(2 - 2 * distance / FARTHEST_ROOT, 0, 1)[:, None]
+            points[grid] += share * (finer[nearest] - points[grid[0]])

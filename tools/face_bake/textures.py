@@ -4,6 +4,7 @@ import numpy as np
 from PIL import Image
 from scipy.spatial import cKDTree
 
+from .ageing import age_of
 from .cage import HEAD, MOUTH
 from .hair import growth
 from .head import Body, Head
@@ -25,6 +26,7 @@ class Painter:
     """Paints skins of one size."""
 
     def __init__(self, head: Head, size: int):
+        self._lights: dict[Body, np.ndarray] = {}
         self._head, fine = head, head.fine
         self._triangles, uv_triangles = fine.triangles, fine.uv_triangles
         self._raster = Raster(fine.uv, uv_triangles, size)
@@ -54,11 +56,30 @@ class Painter:
 
     def skin(self, body: Body) -> Image.Image:
         """The skin of a person with the occlusion of the neutral face baked in."""
+        colours = paint_skin(self._canvas, self.light(body), body.person.look, age_of(body.person))
+        return Image.fromarray(self._raster.picture(colours))
+
+    @property
+    def canvas(self) -> Canvas:
+        """What lies under each covered pixel."""
+        return self._canvas
+
+    @property
+    def raster(self) -> Raster:
+        """Where those pixels are."""
+        return self._raster
+
+    def light(self, body: Body) -> np.ndarray:
+        """How much light reaches each covered pixel (p,) of the neutral, 0..1."""
+        if body not in self._lights:
+            self._lights = {body: self._light(body)}
+        return self._lights[body]
+
+    def _light(self, body: Body) -> np.ndarray:
         neutral = body.shaper.neutral
         blockers = body.solids(neutral, SOLIDS)
         skin = body.fine_skin(neutral)
         light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
         # Roots are painted dark already: shaded once more they would be black between the strands.
         light = np.maximum(light, ROOT_LIGHT * smoothstep(3, 12, growth(self._base, body.person.look)))
-        colours = paint_skin(self._canvas, self._raster.sample(light, self._triangles), body.person.look)
-        return Image.fromarray(self._raster.picture(colours))
+        return self._raster.sample(light, self._triangles)

@@ -4,11 +4,12 @@ from pathlib import Path
 
 import numpy as np
 
-from .correctives import HALF_WAY, PAIRS
+from .correctives import HALF_WAY, PAIRS, half_way, together
 from .hair_atlas import hair_material
 from .head import Head
 from .lash_pictures import brow_material, lash_material
-from .people import Look, Person
+from .people import Person
+from .skin_pictures import skin_maps_text
 
 CREDIT = "MakeHuman base mesh and targets (MakeHuman team), Face Units 01 (Mika Suominen)"
 LICENCE = "CC0-1.0"
@@ -24,9 +25,10 @@ MATERIALS = {
     "lash": None,
     "brow": None,
     "hair": None,
+    "hair_lock": None,
 }
 # These have a colour of each person's own; their pictures' opacity lets through what lies behind them.
-SEE_THROUGH = ("lash", "brow", "hair")
+SEE_THROUGH = ("lash", "brow", "hair", "hair_lock")
 
 # Of materials that let light through.
 OPACITY = {"tear": 0.3}
@@ -63,12 +65,14 @@ def write_obj(path: Path, title: str, points: np.ndarray, layout: str):
     path.write_text("\n".join(head + vertices) + "\n" + layout, encoding="ascii", newline="\n")
 
 
-def write_mtl(path: Path, look: Look):
+def write_mtl(path: Path, person: Person):
+    look = person.look
     lines = [f"# {LICENCE}"]
     materials = MATERIALS | {
         "lash": lash_material(look),
         "brow": brow_material(look),
         "hair": hair_material(look),
+        "hair_lock": hair_material(look),
     }
     for name, (colour, shine, exponent, picture) in materials.items():
         diffuse, specular = (" ".join(f"{part:g}" for part in value) for value in (colour, (shine,) * 3))
@@ -77,6 +81,7 @@ def write_mtl(path: Path, look: Look):
         lines += ["d 0.995"] if name in SEE_THROUGH else []
         lines += [f"d {OPACITY[name]:g}"] if name in OPACITY else []
         lines += [f"map_Kd {picture}"] if picture else []
+        lines += skin_maps_text(person) if name == "skin" else []
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 
 
@@ -84,13 +89,13 @@ def _rules() -> list[str]:
     """Which shapes switch the correctives on."""
     lines = []
     for name in HALF_WAY:
-        lines += ["", "[[correctives]]", f'shape = "{name} half way"', f'hat = "{name}"']
+        lines += ["", "[[correctives]]", f'shape = "{half_way(name)}"', f'hat = "{name}"']
     for one, other in PAIRS:
-        lines += ["", "[[correctives]]", f'shape = "{one} and {other}"', f'product = ["{one}", "{other}"]']
+        lines += ["", "[[correctives]]", f'shape = "{together(one, other)}"', f'product = ["{one}", "{other}"]']
     return lines
 
 
-def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list):
+def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list, wrinkles: list[str]):
     lines = [
         f'name = "{person.name}"',
         f'description = "{person.description}"',
@@ -112,5 +117,5 @@ def write_toml(path: Path, person: Person, expressions: list[str], landmarks: li
         lines += ["", "[[landmarks]]", f'name = "{landmark.name}"', f"vertex = {landmark.vertex}"]
         lines += [f'mpeg4 = "{landmark.mpeg4}"'] if landmark.mpeg4 else []
         lines += [f"ibug = {landmark.ibug}"] if landmark.ibug is not None else []
-    lines += _rules()
+    lines += _rules() + wrinkles
     path.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")

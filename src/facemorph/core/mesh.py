@@ -24,6 +24,11 @@ class Material:
 
     `texture` is a file inside the face's folder, or None; `texture_lost` where one was named that is not
     there, so that `diffuse`, a factor on it, says little.
+
+    bump       a picture of the surface's heights in grey, or of its normals in the tangents' space
+    roughness  a picture of how rough it is: 0 a mirror, 1 without any highlight
+    wrinkles   heights of three sets of wrinkles, one a channel; the middle grey is the surface
+    The `_height`s are model units from black to white; None where the file does not say.
     """
 
     name: str
@@ -33,6 +38,17 @@ class Material:
     opacity: float = 1.0
     texture: Path | None = None
     texture_lost: bool = False
+    bump: Path | None = None
+    bump_height: float | None = None
+    roughness: Path | None = None
+    wrinkles: Path | None = None
+    wrinkle_height: float | None = None
+
+    @property
+    def pictures(self) -> tuple[Path, ...]:
+        """Every picture that it names, the texture first."""
+        named = (self.texture, self.bump, self.roughness, self.wrinkles)
+        return tuple(dict.fromkeys(path for path in named if path is not None))
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from facemorph.core.morph import morphed_positions
 from facemorph.core.normals import vertex_normals
 from facemorph.core.pose import NEUTRAL, Pose
 from facemorph.core.triangles import triangulated
+from facemorph.core.wrinkles import Wrinkle, WrinkleWeights
 from facemorph.errors import MeshDataError, UnknownNameError
 
 EXPRESSION = "expression"
@@ -68,7 +69,7 @@ class Rig:
     """A neutral `Mesh` and K shapes; `deltas` (K, V, 3) float32, in the neutral's unit.
 
     `correctives` say which shapes follow from the others' weights; where `corrected` is off, they rest, and
-    every face is the plain sum of its shapes.
+    every face is the plain sum of its shapes. `wrinkles` are what the shapes fade in on the skin.
     Raises `MeshDataError` when deltas and neutral do not fit, a name stands twice, or a rule has no shape.
     """
 
@@ -79,6 +80,7 @@ class Rig:
     regions: Regions | None = None
     correctives: tuple[Corrective, ...] = ()
     corrected: bool = True
+    wrinkles: tuple[Wrinkle, ...] = ()
 
     def __post_init__(self) -> None:
         expected = (len(self.shapes), self.neutral.vertex_count, 3)
@@ -90,6 +92,7 @@ class Rig:
                 raise MeshDataError(f"two shapes are called {shape.name!r}; every shape needs its own name.")
             seen.add(shape.name)
         Activation(self.names, self.correctives)
+        WrinkleWeights(self.names, self.wrinkles)
 
     def __repr__(self) -> str:
         return f"<Rig {self.info.name!r}: {self.neutral.vertex_count:,} vertices, {len(self.shapes)} shapes>"

@@ -13,6 +13,7 @@ from facemorph.core.arrays import Float32, Float64
 from facemorph.core.rig import Rig
 from facemorph.gl.eyes import eyes_of
 from facemorph.gl.mouth_driver import MouthOpening
+from facemorph.gl.wrinkles import wrinkles_of
 
 
 class Driver(Protocol):
@@ -24,7 +25,7 @@ class Driver(Protocol):
 
 def drivers_of(rig: Rig) -> tuple[Driver, ...]:
     """Those that the rig has all that they need for."""
-    makers: tuple[Callable[[Rig], Driver | None], ...] = (eyes_of, MouthOpening)
+    makers: tuple[Callable[[Rig], Driver | None], ...] = (eyes_of, MouthOpening, wrinkles_of)
     return tuple(driver for driver in (make(rig) for make in makers) if driver is not None)
 
 

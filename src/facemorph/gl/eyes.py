@@ -23,8 +23,8 @@ SKIN = "skin"
 LIMBUS_IN_PICTURE = 0.27
 _PICTURE_TOLERANCE = 2e-3
 # Distance of the limbus's plane from the middle of the ball, in radii of the limbus (23.5 degrees).
-_LIMBUS_AHEAD = 2.2998
-_BALL_RADIUS = 2.5078
+LIMBUS_AHEAD = 2.2998
+BALL_RADIUS = 2.5078
 # Lids are looked for this far around the line of sight, so near the ball, in its radii, and so often.
 _AROUND, _NEAREST, _FARTHEST, _STATIONS = 0.95, 1.012, 1.13, 13
 _FEWEST = 5
@@ -46,7 +46,7 @@ class Eyes:
         self._eyes = eyes
         self._followed = Followed(rig, np.concatenate([np.concatenate(_parts(eye)) for eye in eyes]))
         self._radius = [
-            float(np.linalg.norm(rest[0] - rest[2])) / 2.0 * _BALL_RADIUS
+            float(np.linalg.norm(rest[0] - rest[2])) / 2.0 * BALL_RADIUS
             for rest in (rig.neutral.positions[eye.limbus].astype(np.float64) for eye in eyes)
         ]
 
@@ -87,7 +87,7 @@ def _uniforms_of_eye(limbus: Float64, upper: Float64, lower: Float64, radius: fl
     """For the morphed limbus (4, 3) and lids (n, 3) of one eye."""
     right, up = _unit(limbus[0] - limbus[2]), _unit(limbus[1] - limbus[3])
     forward = _unit(np.cross(right, up))
-    centre = limbus.mean(0) - forward * (radius / _BALL_RADIUS * _LIMBUS_AHEAD)
+    centre = limbus.mean(0) - forward * (radius / BALL_RADIUS * LIMBUS_AHEAD)
     above, below = ((lid - centre) / radius for lid in (upper, lower))
     low = max(above[:, 0].min(), below[:, 0].min())
     high = min(above[:, 0].max(), below[:, 0].max())
@@ -147,9 +147,9 @@ def _corners(mesh: Mesh, group: str) -> Int64:
 
 def _lids(skin: Float64, limbus: Float64) -> tuple[Int64, Int64] | None:
     """Indices into the skin (n, 3) along the edges of the upper and the lower lid."""
-    radius = float(np.linalg.norm(limbus[0] - limbus[2])) / 2.0 * _BALL_RADIUS
+    radius = float(np.linalg.norm(limbus[0] - limbus[2])) / 2.0 * BALL_RADIUS
     forward = _unit(np.cross(limbus[0] - limbus[2], limbus[1] - limbus[3]))
-    centre = limbus.mean(0) - forward * (radius / _BALL_RADIUS * _LIMBUS_AHEAD)
+    centre = limbus.mean(0) - forward * (radius / BALL_RADIUS * LIMBUS_AHEAD)
     off = (skin - centre) / max(radius, 1e-12)
     distance = np.linalg.norm(off, axis=1)
     near = (distance > _NEAREST) & (distance < _FARTHEST) & (off @ forward > 0.2) & (abs(off[:, 0]) < _AROUND)

@@ -12,12 +12,13 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from facemorph.core.arrays import Bool, Int32, Int64
+from facemorph.core.arrays import Bool, Float32, Int32, Int64
 from facemorph.core.mesh import Material, Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.core.refinement import Refinement
 from facemorph.core.split import SplitVertices, split_vertices
 from facemorph.core.triangles import Triangles, triangulated
+from facemorph.gl.bends import bends
 from facemorph.gl.describe import Graphics
 from facemorph.gl.hem import Hem, hem_of
 from facemorph.gl.materials import PLAIN
@@ -59,6 +60,7 @@ class Form:
             form.hem  # noqa: B018
             progress(0.7, "Looking around vertices")
             form.shell if ahead.software else form.rings  # noqa: B018
+            form.bend  # noqa: B018
             progress(1.0, "Ready")
         return form
 
@@ -75,6 +77,13 @@ class Form:
     def refined(self, values: NDArray[_Real]) -> NDArray[_Real]:
         """Values of the file's vertices, (V,) or (V, k), at those that are drawn."""
         return self.refinement.apply(values)
+
+    @cached_property
+    def bend(self) -> Float32:
+        """How much the file's surface bends at its vertices (V,), so that all levels are lit alike."""
+        coarse = self.of_file
+        of = self.triangles if coarse is self.mesh else triangulated(coarse)
+        return bends(coarse.positions, of.vertices)
 
     @cached_property
     def split(self) -> SplitVertices:

@@ -10,29 +10,29 @@ from facemorph.gl.lights import Lights
 
 # A large key from the upper left, enough fill that the shadow side stays skin, a faint rim from behind.
 STUDIO = Lights(
-    key=(1.62, 1.53, 1.43),
+    key=(1.46, 1.38, 1.29),
     key_from=(-36.0, 32.0),
-    fill=(0.42, 0.43, 0.46),
+    fill=(0.38, 0.39, 0.42),
     fill_from=(46.0, 4.0),
     catch_from=(-27.0, 15.0),
     rim=(1.25, 1.28, 1.36),
     rim_from=(152.0, 35.0),
     sky=(0.27, 0.28, 0.30),
     floor=(0.18, 0.155, 0.145),
-    key_softness=0.22,
+    key_softness=0.25,
 )
 # Daylight through a tall window beside the face; the room gives the other side a little of it back.
 WINDOW = Lights(
-    key=(1.66, 1.70, 1.78),
-    key_from=(-66.0, 14.0),
-    fill=(0.30, 0.275, 0.25),
+    key=(1.72, 1.76, 1.84),
+    key_from=(-74.0, 16.0),
+    fill=(0.20, 0.185, 0.17),
     fill_from=(62.0, 0.0),
     catch_from=(-38.0, 10.0),
     rim=(0.35, 0.37, 0.40),
     rim_from=(-128.0, 20.0),
-    sky=(0.24, 0.25, 0.265),
-    floor=(0.15, 0.135, 0.125),
-    key_softness=0.60,
+    sky=(0.19, 0.20, 0.215),
+    floor=(0.12, 0.11, 0.10),
+    key_softness=0.45,
 )
 # Most of it comes from everywhere, so that nothing shines and a turned head is as bright as a straight one.
 FLAT = Lights(
@@ -45,7 +45,7 @@ FLAT = Lights(
     rim_from=(180.0, 0.0),
     sky=(0.72, 0.72, 0.72),
     floor=(0.60, 0.60, 0.60),
-    key_softness=0.50,
+    key_softness=1.0,
     adapts=False,
     backdrop=0.0,
     lag_deg=0.0,

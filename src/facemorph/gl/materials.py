@@ -19,11 +19,13 @@ class Finish:
     gloss      strength of the highlight, `sharpness` its exponent
     sheen      how strongly the rim light shows at grazing angles
     recess     how much light the surroundings keep away: lids from an eye, the mouth from teeth
+    relief     whether it is skin, with bumps and wrinkles: by pixel but while something moves
     catches    whether its highlight is an eye's catchlight
     shade      factor on the colour, for what lies inside the mouth
     matte      luminance of the colour below which nothing shines: hair and brows painted on skin
     shader     the fragment shader that draws it
     spill      in a mouth, how far light reaches it over the lips' edge, in half widths of the mouth
+    one_sided  whether its inside need not be drawn: locks lie on other hair
     by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
     """
 
@@ -34,13 +36,23 @@ class Finish:
     recess: float = 0.0
     shade: float = 1.0
     matte: float = 0.0
+    relief: bool = False
     catches: bool = False
     shader: str = "lit.frag"
     spill: float = 0.0
     by_pixel: bool = False
+    one_sided: bool = False
 
 
-SKIN = Finish(wrap=(0.34, 0.17, 0.11), gloss=0.065, sharpness=26.0, sheen=1.6, matte=0.045)
+SKIN = Finish(
+    wrap=(0.34, 0.17, 0.11),
+    gloss=0.72,
+    sharpness=26.0,
+    sheen=0.9,
+    matte=0.045,
+    shader="skin.frag",
+    relief=True,
+)
 EYE = Finish(
     wrap=(0.30, 0.28, 0.28),
     gloss=5.0,
@@ -83,12 +95,8 @@ GUM = Finish(
 TONGUE = replace(GUM, gloss=0.10, sharpness=30.0)
 MOUTH = replace(GUM, gloss=0.05, sharpness=45.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
-HAIR = Finish(
-    wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag", by_pixel=True
-)
-BROW = Finish(
-    wrap=(0.36, 0.30, 0.26), gloss=0.15, sharpness=20.0, sheen=0.0, shader="hair.frag", by_pixel=True
-)
+HAIR = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag")
+BROW = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.15, sharpness=20.0, sheen=0.0, shader="hair.frag")
 CLAY = Finish(wrap=(0.22, 0.20, 0.18), gloss=0.05, sharpness=18.0, sheen=1.0)
 
 # A name contains the word; the first that fits is taken, so "eyelash" is a lash and no eye.
@@ -161,4 +169,5 @@ def finish_of(material: Material) -> Finish:
 
 def _hair_of(material: Material) -> Finish:
     """Hair that shines as its file says: coils scatter what straight hair throws back."""
-    return replace(HAIR, gloss=min(max(sum(material.specular), 0.0), 1.5) / 0.9)
+    gloss = HAIR.gloss * min(max(sum(material.specular), 0.0), 1.5) / 0.9
+    return replace(HAIR, gloss=gloss, one_sided="lock" in material.name.casefold())

@@ -7,11 +7,9 @@ moves on software OpenGL, insides that `gl.insides` finds hidden are left out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
@@ -19,24 +17,25 @@ from facemorph.gl.backdrop import STRENGTH, Backdrop, shadow_uniforms
 from facemorph.gl.colours import (
     FIRST_PARTNER_UNIT,
     OWN_UNIT,
-    STENCIL_UNIT,
     Source,
     blended_opacity,
     source_of,
+    stencil_of,
 )
+from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
 from facemorph.gl.light_rigs import lights_of
-from facemorph.gl.materials import CLAY, CLAY_COLOUR, GLOW_COLOUR, SKIN, Finish, finish_of
+from facemorph.gl.materials import CLAY, CLAY_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
+from facemorph.gl.skin_maps import skin_maps
 from facemorph.gl.surface import Part, Surface
 from facemorph.gl.textures import Textures
+from facemorph.gl.uniforms import NOTHING_OF_FACE, Uniforms, assign, lit_uniforms, scene_uniforms
 
 if TYPE_CHECKING:
     import moderngl
 
-Uniforms = Mapping[str, object]
-NOTHING_OF_FACE: Uniforms = MappingProxyType({})
 # GL's blend factors: ONE, SRC_ALPHA and ONE_MINUS_SRC_ALPHA.
 _PREMULTIPLIED = (0x0001, 0x0303)
 _STRAIGHT = (0x0302, 0x0303)
@@ -53,10 +52,11 @@ class Painter:
         self._programs = programs
         self._software = software
         self.textures = Textures(ctx, software=software)
+        self._exposures = Exposures(self.textures)
         self._backdrop = Backdrop(ctx, programs)
         self._ramp: moderngl.Texture | None = None
         self._assigned: set[int] = set()
-        self._glowing = False
+        self._glowing = self._hurried = False
         self._shares: tuple[float, ...] = (1.0,)
 
     def paint(
@@ -80,11 +80,15 @@ class Painter:
         face      what the drivers tell shaders of the face in its pose
         hurried   whether insides that are hidden may be left out
         """
-        self._glowing = glowing
+        self._glowing, self._hurried = glowing, hurried
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
-        scene = {**self._scene(surface, camera, look, size), **face}
+        lights = lights_of(look.light)
+        scene = {**scene_uniforms(camera, look, size, lights, self._shares), **face}
+        scene |= shadow_uniforms(surface.form.of_file.bounds, camera, size, STRENGTH)
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
+        if look.shading == "skin" and lights.adapts:
+            scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="
         solid = [part for part in surface.parts if self._opacity(part) >= 1.0]
@@ -97,58 +101,14 @@ class Painter:
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
         clear = [part for part in surface.parts if self._opacity(part) < 1.0]
-        for side in (_INSIDE, _OUTSIDE):
-            self._draw_parts(surface, clear, look, scene, side)
+        both = [part for part in clear if not finish_of(part.material).one_sided]
+        self._draw_parts(surface, both, look, scene, _INSIDE)
+        self._draw_parts(surface, clear, look, scene, _OUTSIDE)
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 
-    def paint_skin(
-        self, framebuffer: moderngl.Framebuffer, surface: Surface, camera: Camera, size: tuple[int, int]
-    ) -> None:
-        """Fill `framebuffer` with white where skin is seen, black elsewhere; all that is solid, without skin.
-
-        What a bust's end fades into is no skin.
-        """
-        black = Look(background=(0.0, 0.0, 0.0, 0.0))
-        scene = {**self._scene(surface, camera, black, size), "side": _OUTSIDE}
-        skin = [part for part in surface.parts if finish_of(part.material) == SKIN]
-        counted = [part for part in skin or surface.parts if part.material.opacity >= 1.0 and not part.in_hem]
-        self._assigned.clear()
-        framebuffer.use()
-        framebuffer.clear(0.0, 0.0, 0.0, 1.0)
-        self._ctx.enable_only(self._ctx.DEPTH_TEST)
-        self._ctx.depth_func = "<="
-        for part in surface.parts:
-            own = {"counted": float(part in counted)}
-            self._draw(surface, part, scene, "mask.frag", self._stencil(surface, part), own)
-
     def _opacity(self, part: Part) -> float:
         return blended_opacity((part.material, *part.partners), self._shares)
-
-    def _scene(
-        self, surface: Surface, camera: Camera, look: Look, size: tuple[int, int]
-    ) -> dict[str, object]:
-        """The uniforms that every part of the picture shares."""
-        matrix = camera.clip_from_model(size[0] / size[1])
-        lights = lights_of(look.light)
-        return {
-            "clip_from_model": np.ascontiguousarray(matrix.T, np.float32).tobytes(),
-            "camera_position": tuple(float(value) for value in camera.position()),
-            "background": look.backdrop,
-            "backdrop_depth": lights.backdrop,
-            **shadow_uniforms(surface.form.of_file.bounds, camera, size, STRENGTH),
-            "picture_size": (float(size[0]), float(size[1])),
-            "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
-            "ramp": 0,
-            "albedo_texture": OWN_UNIT,
-            "stencil_texture": STENCIL_UNIT,
-            "polygon_edges": 1,
-            "own_share": self._shares[0],
-            **{f"partner{i}_share": share for i, share in enumerate(self._shares[1:])},
-            **{f"partner{i}_texture": FIRST_PARTNER_UNIT + i for i in range(len(self._shares) - 1)},
-            "glow_colour": GLOW_COLOUR,
-            **lights.uniforms(camera, look.exposure),
-        }
 
     def _draw_parts(
         self, surface: Surface, parts: list[Part], look: Look, scene: Uniforms, side: float
@@ -221,23 +181,34 @@ class Painter:
     def _draw_part(self, surface: Surface, part: Part, look: Look, scene: Uniforms) -> None:
         if look.shading in ("clay", "wire"):
             self._draw_lit(
-                surface, part, scene, CLAY, Source(CLAY_COLOUR, 1.0), stencil=self._stencil(surface, part)
+                surface,
+                part,
+                scene,
+                CLAY,
+                Source(CLAY_COLOUR, 1.0),
+                stencil=stencil_of(part.material, surface.mesh, self.textures),
             )
         elif look.shading == "normals":
-            self._draw(surface, part, scene, "normals.frag", self._stencil(surface, part), {})
+            self._draw(
+                surface,
+                part,
+                scene,
+                "normals.frag",
+                stencil_of(part.material, surface.mesh, self.textures),
+                {},
+            )
         elif look.shading == "heat":
             self._heat_ramp().use(0)
-            self._draw(surface, part, scene, "heat.frag", ["LIT", "HEAT", *self._stencil(surface, part)], {})
+            self._draw(
+                surface,
+                part,
+                scene,
+                "heat.frag",
+                ["LIT", "HEAT", *stencil_of(part.material, surface.mesh, self.textures)],
+                {},
+            )
         else:
             self._draw_material(surface, part, scene)
-
-    def _stencil(self, surface: Surface, part: Part) -> list[str]:
-        """What shadings without the part's own colours need to leave out what its texture leaves out."""
-        own = source_of(part.material, surface.mesh, self.textures)
-        if own.texture is None or not own.cut_out:
-            return []
-        own.texture.use(STENCIL_UNIT)
-        return ["STENCILLED"]
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""
@@ -262,18 +233,7 @@ class Painter:
         define = [*source.defines(), *stencil]
         if source.texture is not None:
             source.texture.use(OWN_UNIT)
-        own: dict[str, object] = {
-            "albedo": tuple(value * finish.shade for value in source.factor),
-            "opacity": source.opacity,
-            "wrap": finish.wrap,
-            "gloss": finish.gloss,
-            "sharpness": finish.sharpness,
-            "sheen": finish.sheen,
-            "recess": finish.recess,
-            "matte": finish.matte,
-            "spill": finish.spill,
-            "shine_direction": scene["catch_direction" if finish.catches else "key_direction"],
-        }
+        own = lit_uniforms(finish, source, scene)
         if partners:
             define.append(f"PARTNERS {len(partners)}")
             own["stored_colour"] = source.stored
@@ -289,13 +249,17 @@ class Painter:
                 f"partner{i}_albedo": tuple(value * finish.shade for value in partner.factor),
                 f"partner{i}_opacity": partner.opacity,
             }
+        if finish.relief:
+            finish = finish if self._hurried else replace(finish, by_pixel=True)
+            maps = skin_maps(part.material, surface.mesh, source, self.textures, scene)
+            define, own = [*define, *maps.defines], own | maps.uniforms
         if any(one.cut_out for one in (source, *partners)):
             define.append("CUTOUT")
         if self._glowing:
             define.append("GLOW")
-        # Of the inside hardly a pixel is seen: there, light by vertex would be work for nothing.
+        # Of the inside hardly a pixel is seen, unless of hair: light by vertex would be work for nothing.
         fine = surface.mesh.vertex_count >= FINE_MESH and not finish.by_pixel
-        by_vertex = self._software and fine and scene["side"] == _OUTSIDE
+        by_vertex = self._software and fine and (scene["side"] == _OUTSIDE or source.cut_out)
         lit = ["LIT", "LIT_BY_VERTEX"] if by_vertex else ["LIT"]
         self._draw(surface, part, scene, finish.shader, [*lit, *define], own)
 
@@ -342,14 +306,3 @@ class Painter:
         if self._ramp is not None:
             self._ramp.release()
             self._ramp = None
-
-
-def assign(program: moderngl.Program, values: Uniforms) -> None:
-    """Set those uniforms that the program has."""
-    for name, value in values.items():
-        if name not in program:
-            continue
-        if isinstance(value, bytes):
-            program[name].write(value)  # type: ignore[union-attr]
-        else:
-            program[name].value = value  # type: ignore[union-attr]

@@ -40,13 +40,15 @@ from facemorph.gl.form import Form
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
 from facemorph.gl.luminance import EqualLuminance
 from facemorph.gl.morph import Stats, new_morph
-from facemorph.gl.painter import NOTHING_OF_FACE, Painter
+from facemorph.gl.painter import Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
 from facemorph.gl.scenes import checked_scene
+from facemorph.gl.skin_mask import paint_skin
 from facemorph.gl.stage import Stage
 from facemorph.gl.surface import Surface
 from facemorph.gl.target import Target
+from facemorph.gl.uniforms import NOTHING_OF_FACE
 
 if TYPE_CHECKING:
     import moderngl
@@ -215,7 +217,8 @@ class Renderer:
         outer = self.ctx.detect_framebuffer()
         try:
             framebuffer = self._target.prepare(size, min(SAMPLES, self.graphics.max_samples))
-            self._painter.paint_skin(framebuffer, stage.surface, camera, size)
+            textures = self._painter.textures
+            paint_skin(self.ctx, self._programs, textures, stage.surface, camera, framebuffer)
             self._target.finish(framebuffer)
         finally:
             self._painter.restore(outer)

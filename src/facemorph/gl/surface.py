@@ -34,6 +34,7 @@ _FORMS = {
     "reference": "3f",
     "glow": "1f",
     "kept": "1f",
+    "bend": "1f",
 }
 _OF_PARTNER = re.compile(r"partner(\d+)_(uv|colour)")
 
@@ -166,6 +167,8 @@ class Surface:
         if name == "kept":
             kept = self.hem.kept if self.hem else np.ones(self.mesh.vertex_count, np.float32)
             return kept[self.position_of]
+        if name == "bend":
+            return self._drawn_values(self.form.bend)
         whose, kind = self.mesh, name
         of_partner = _OF_PARTNER.match(name)
         if of_partner:
@@ -182,7 +185,7 @@ class Surface:
     def texture_paths(self) -> set[Path]:
         """The textures that its materials, and its partners', name."""
         materials = [material for part in self.parts for material in (part.material, *part.partners)]
-        return {material.texture for material in materials if material.texture is not None}
+        return {path for material in materials for path in material.pictures}
 
     def polygon_edges(self) -> moderngl.Texture:
         """For each triangle in drawing order, which edges are the file's polygons' own: bits 1, 2 and 4."""

@@ -7,6 +7,9 @@ from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from facemorph.core.arrays import UInt8
 from facemorph.core.mesh import Material
 from facemorph.core.picture import PICTURE_FORMATS
 from facemorph.errors import GraphicsError
@@ -19,6 +22,9 @@ if TYPE_CHECKING:
 LARGEST_SIDE = 4096
 ANISOTROPY = 8.0
 LARGEST_PIXELS = 16384 * 16384
+# Of the small copies that tell what a picture is of; Pillow's number for its box filter.
+SMALL_SIDE = 64
+_BOX = 4
 
 
 class Textures:
@@ -33,6 +39,7 @@ class Textures:
         self._anisotropy = 1.0 if software else min(ANISOTROPY, float(ctx.max_anisotropy))
         self._read: dict[Path, moderngl.Texture | None] = {}
         self._problems: dict[Path, str] = {}
+        self._small: dict[Path, UInt8] = {}
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -41,22 +48,45 @@ class Textures:
 
     def of(self, material: Material) -> moderngl.Texture | None:
         """The material's texture; None where it has none that can be shown."""
-        path = material.texture
+        return self.at(material.texture)
+
+    def at(self, path: Path | None) -> moderngl.Texture | None:
+        """The texture of the picture at `path`; None where there is none that can be shown."""
         if path is None:
             return None
         if path not in self._read:
             try:
-                self._read[path] = load_texture(self._ctx, path, self._anisotropy)
+                self._read[path] = self._load(path)
             except GraphicsError as error:
                 self._read[path] = None
                 self._problems[path] = str(error)
         return self._read[path]
+
+    def small(self, path: Path) -> UInt8 | None:
+        """The picture at `path` shrunk to `SMALL_SIDE` a side, (n, n, channels) sRGB, bottom row first."""
+        return self._small.get(path) if self.at(path) is not None else None
+
+    def holds_normals(self, path: Path | None) -> bool:
+        """Whether the picture is of normals, which are blue, and not of heights, which are grey."""
+        small = self.small(path) if path is not None else None
+        if small is None or small.shape[2] < 3:
+            return False
+        red, _, blue = small[..., :3].reshape(-1, 3).mean(axis=0).tolist()
+        return bool(blue > 160.0 and blue > 1.2 * red)
+
+    def _load(self, path: Path) -> moderngl.Texture:
+        """Read the picture at `path`. Raises `GraphicsError`."""
+        picture = _read(path)
+        shrunk = picture.resize((SMALL_SIDE, SMALL_SIDE), _BOX, reducing_gap=1.0)
+        self._small[path] = np.asarray(shrunk, np.uint8).reshape(SMALL_SIDE, SMALL_SIDE, -1)
+        return _texture_of(self._ctx, picture, self._anisotropy)
 
     def keep(self, paths: Collection[Path]) -> None:
         """Give back the textures of other paths to the context."""
         for path in [path for path in self._read if path not in paths]:
             texture = self._read.pop(path)
             self._problems.pop(path, None)
+            self._small.pop(path, None)
             if texture is not None:
                 texture.release()
 
@@ -65,11 +95,12 @@ class Textures:
         self.keep(())
 
 
-def load_texture(ctx: moderngl.Context, path: Path, anisotropy: float) -> moderngl.Texture:
-    """The picture at `path` as a mipmapped texture, bottom row first. Raises `GraphicsError`."""
-    picture = _read(path)
+def _texture_of(ctx: moderngl.Context, picture: Picture, anisotropy: float) -> moderngl.Texture:
+    """A mipmapped texture, bottom row first."""
     components = len(picture.getbands())
     texture = ctx.texture(picture.size, components, picture.tobytes())
+    if components == 1:
+        texture.swizzle = "RRR1"
     texture.build_mipmaps()
     texture.filter = (ctx.LINEAR_MIPMAP_LINEAR, ctx.LINEAR)
     if anisotropy > 1.0:
@@ -89,7 +120,8 @@ def _read(path: Path) -> Picture:
                 )
             opened.draft("RGB", (LARGEST_SIDE, LARGEST_SIDE))
             see_through = "A" in opened.getbands() or "transparency" in opened.info
-            picture: Picture = opened.convert("RGBA" if see_through else "RGB")
+            grey = opened.mode == "L" and not see_through
+            picture: Picture = opened.convert("RGBA" if see_through else "L" if grey else "RGB")
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise GraphicsError(
             f"{path}: the texture cannot be read ({error}); a plain colour stands in."

@@ -157,7 +157,7 @@ class _Check:
     def _textures(self, path: Path, library: Library) -> None:
         for problem in library.problems:
             self.add("warning", path, "texture", f"{problem}.")
-        found = {m.texture: m.name for m in library.materials.values() if m.texture is not None}
+        found = {path: m.name for m in library.materials.values() for path in m.pictures}
         for texture, material in found.items():
             wrong = picture_problem(texture)
             if wrong is not None:

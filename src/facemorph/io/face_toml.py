@@ -9,6 +9,7 @@
     [[landmarks]]
     name = "nose_tip"               vertex = 1234, mpeg4 = "9.3", ibug = 30; the last two may be left out
     [[correctives]]                 shapes that others switch on, see `correctives_toml`
+    [[wrinkles]]                    what shapes fade in on the skin, see `wrinkles_toml`
 
 Where it has no expressions, the meshes in the folder are the shapes, as in a plain folder. Every file
 named must lie in the folder or below it, links followed first. Keys of another name are passed over, so
@@ -31,7 +32,7 @@ from facemorph.core.pose import NEUTRAL
 from facemorph.core.progress import Progress
 from facemorph.core.rig import FaceInfo, Landmark, Rig, Shape, plain_label
 from facemorph.errors import FaceFolderError, MeshDataError
-from facemorph.io import correctives_toml
+from facemorph.io import correctives_toml, wrinkles_toml
 from facemorph.io.face_set import check_size, read_set
 from facemorph.io.inside import inside
 from facemorph.io.limits import SHAPES, shortened
@@ -48,10 +49,11 @@ _LANDMARKS = 10_000
 _KEYS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
         "": ("name", "description", "credit", "licence", "unit", "neutral", "shapes", "expressions",
-             "landmarks", correctives_toml.KEY),
+             "landmarks", correctives_toml.KEY, wrinkles_toml.KEY),
         "expressions": ("name", "label", "file"),
         "landmarks": ("name", "vertex", "mpeg4", "ibug"),
         correctives_toml.KEY: correctives_toml.KEYS,
+        wrinkles_toml.KEY: wrinkles_toml.KEYS,
     }
 )  # fmt: skip
 
@@ -117,11 +119,13 @@ def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: Mor
     table = _table(face.folder)
     info = _info(face.folder, table, neutral.vertex_count)
     rules = correctives_toml.read_correctives(table)
+    wrinkles = wrinkles_toml.read_wrinkles(table)
     shapes = tuple(shape for shape, _ in face.shapes)
     try:
         if more is None:
-            return Rig(neutral, shapes, deltas, info, correctives=rules)
-        return Rig(neutral, (*shapes, *more.shapes), deltas, info, more.regions, rules)
+            return Rig(neutral, shapes, deltas, info, correctives=rules, wrinkles=wrinkles)
+        every = (*shapes, *more.shapes)
+        return Rig(neutral, every, deltas, info, more.regions, rules, wrinkles=wrinkles)
     except MeshDataError as error:
         raise FaceFolderError(f"{face.folder}: {error}") from error
 

@@ -1,5 +1,9 @@
 """MTL: the colours and textures of an OBJ's materials.
 
+Besides `map_Kd` it may name a relief (`map_Bump`, `bump` or `norm`; heights, or normals), a roughness
+(`map_Pr`) and, which is our own, heights of wrinkles (`map_wrinkles`, a set a channel; what fades them in
+stands in `face.toml`). `-bm` is how many model units lie between black and white.
+
 A material file, and each texture, must lie in the OBJ's folder or below it; symbolic links are
 followed first, and what then lies outside counts as missing. What is missing or cannot be read never
 stops a mesh: the material is without it, and `facemorph check` says so.
@@ -8,15 +12,22 @@ stops a mesh: the material is without it, and `facemorph check` says so.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from facemorph.core.mesh import Material
 from facemorph.errors import MeshFileError
 from facemorph.io.inside import inside
 from facemorph.io.limits import MTL_BYTES, NAMES, read_bytes, shortened
 
+# What a map's line is called, in small letters, and the material's field that it fills.
+_MAPS: Mapping[str, str] = MappingProxyType(
+    {"map_bump": "bump", "bump": "bump", "norm": "bump", "map_pr": "roughness", "map_wrinkles": "wrinkles"}
+)
+_LARGEST_HEIGHT = 1e6
 # Options of map_Kd and how many words each takes; those with a range take one to three numbers.
 _OPTIONS = {"-blendu": 1, "-blendv": 1, "-bm": 1, "-boost": 1, "-cc": 1, "-clamp": 1, "-imfchan": 1,
             "-mm": 2, "-texres": 1, "-type": 1, "-o": 3, "-s": 3, "-t": 3}  # fmt: skip
@@ -46,8 +57,8 @@ def library_files(mesh_path: Path, names: Sequence[str]) -> tuple[Path, ...]:
     """The material files that an OBJ's `mtllib` lines name, and the textures that these name."""
     folder = mesh_path.parent
     files = [folder / name for name in _files(folder, names, [])]
-    textures = (material.texture for material in read_libraries(mesh_path, names).materials.values())
-    return (*files, *(path for path in dict.fromkeys(textures) if path is not None))
+    materials = read_libraries(mesh_path, names).materials.values()
+    return (*files, *dict.fromkeys(path for material in materials for path in material.pictures))
 
 
 def _files(folder: Path, names: Sequence[str], problems: list[str]) -> list[str]:
@@ -100,26 +111,45 @@ def _with(material: Material, key: str, rest: str, folder: Path, problems: list[
     if key == "Tr" and numbers:
         return replace(material, opacity=min(max(1.0 - numbers[0], 0.0), 1.0))
     if key.lower() == "map_kd" and rest:
-        name = _texture_name(rest)
-        texture = inside(folder, name) or inside(folder, rest)
-        if texture is None:
-            problems.append(
-                f"the texture {shortened(name)!r} of {shortened(material.name)!r} is not in the mesh's folder"
-            )
+        texture, _ = _picture(rest, material, folder, problems)
         return replace(material, texture=texture, texture_lost=texture is None)
+    if key.lower() in _MAPS and rest:
+        field = _MAPS[key.lower()]
+        found, height = _picture(rest, material, folder, problems)
+        known: dict[str, Any] = {field: found}
+        if field != "roughness":
+            known["bump_height" if field == "bump" else "wrinkle_height"] = height
+        return replace(material, **known)
     return material
 
 
-def _texture_name(rest: str) -> str:
-    """The file in what follows map_Kd, after its options; it may have blanks in it."""
+def _picture(
+    rest: str, material: Material, folder: Path, problems: list[str]
+) -> tuple[Path | None, float | None]:
+    """The file that a map's line names, None where it is not in the folder, and its `-bm`."""
+    name, height = _map_name(rest)
+    found = inside(folder, name) or inside(folder, rest)
+    if found is None:
+        problems.append(
+            f"the texture {shortened(name)!r} of {shortened(material.name)!r} is not in the mesh's folder"
+        )
+    return found, height
+
+
+def _map_name(rest: str) -> tuple[str, float | None]:
+    """The file in what follows a map's key, after its options (it may have blanks), and their `-bm`."""
     words = rest.split(" ")
+    height = None
     while words and words[0] in _OPTIONS:
-        most = _OPTIONS[words.pop(0)]
+        option = words.pop(0)
+        most = _OPTIONS[option]
         for taken in range(most):
             if not words or (most == 3 and taken and not _numbers(words[0])):
                 break
-            words.pop(0)
-    return " ".join(words).strip()
+            word = words.pop(0)
+            if option == "-bm" and _numbers(word):
+                height = min(max(_numbers(word)[0], -_LARGEST_HEIGHT), _LARGEST_HEIGHT)
+    return " ".join(words).strip(), height
 
 
 def _numbers(rest: str) -> list[float]:

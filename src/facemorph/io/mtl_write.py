@@ -48,7 +48,7 @@ class Companions:
 
     def _textures(self, materials: Iterable[Material]) -> dict[Path, str]:
         """The name beside the mesh of each texture that can be copied."""
-        found = dict.fromkeys(material.texture for material in materials if material.texture is not None)
+        found = dict.fromkeys(path for material in materials for path in material.pictures)
         names: dict[Path, str] = {}
         for texture in found:
             with suppress(OSError):
@@ -88,6 +88,13 @@ def _lines(materials: Iterable[Material], textures: dict[Path, str]) -> Iterator
         yield f"Ns {material.shininess!r}\nd {material.opacity!r}\n"
         if material.texture in textures:
             yield f"map_Kd {textures[material.texture]}\n"
+        for key, path, height in (
+            ("map_Bump", material.bump, material.bump_height),
+            ("map_Pr", material.roughness, None),
+            ("map_wrinkles", material.wrinkles, material.wrinkle_height),
+        ):
+            if path in textures:
+                yield f"{key} {'' if height is None else f'-bm {height!r} '}{textures[path]}\n"
 
 
 def _numbers(colour: tuple[float, float, float]) -> str:

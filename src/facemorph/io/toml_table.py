@@ -50,6 +50,30 @@ class Table:
         """A whole number that must be there."""
         return self._of(int, key, None)
 
+    def decimal(self, key: str, otherwise: float) -> float:
+        """A finite number; where it is not there, `otherwise`."""
+        return self._finite(key, self._values.get(key, otherwise))
+
+    def weights(self, key: str, most: int) -> dict[str, float]:
+        """A table of finite numbers by name; none where it is not there."""
+        values = self._values.get(key, {})
+        if not isinstance(values, dict):
+            raise FaceFolderError(f"{self.path}: {self._where}{key} must be a table of numbers.")
+        if len(values) > most:
+            raise FaceFolderError(
+                f"{self.path}: {self._where}{key} has {len(values):,} entries; {most} at most."
+            )
+        return {name: self._finite(f"{key}.{shortened(name)}", value) for name, value in values.items()}
+
+    def _finite(self, key: str, value: Any) -> float:
+        plain = isinstance(value, int | float) and not isinstance(value, bool)
+        # Bounds first: they hold off infinity, and integers too large for a float.
+        if not plain or not -_LARGEST <= value <= _LARGEST:
+            raise FaceFolderError(
+                f"{self.path}: {self._where}{key} must be a number, not {shortened(repr(value))}."
+            )
+        return float(value)
+
     def texts(self, key: str, most: int) -> tuple[str, ...]:
         """An array of texts; none where it is not there."""
         values = self._list(key, most)

@@ -1,0 +1,94 @@
+"""Where wrinkles run: across the direction in which the muscle below pulls.
+
+Lines are points (s, y) of one side, in decimetres on the base head: s is the way around the head from the
+middle of the face, about x in front; an outer corner of an eye sits at (0.50, 7.27), an alar wing at
+(0.17, 6.88), a mouth corner at (0.27, 6.61), brows at 7.47.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A furrow, `width` to each side and of a `depth` 0..1, ending softly; skin bulges beside it.
+
+    astray is how far it wanders from its line; `first` and `last` are how much of it fades in and out.
+    """
+
+    line: tuple
+    width: float
+    depth: float
+    astray: float = 0.008
+    first: float = 0.30
+    last: float = 0.30
+
+
+def _forehead() -> tuple[Stroke, ...]:
+    """Frontalis pulls up: lines across, higher over the brows' middles, broken, finer between."""
+    strokes = []
+    for y, depth, reach, width in (
+        (7.625, 0.60, 0.40, 0.0165),
+        (7.705, 1.00, 0.50, 0.0205),
+        (7.800, 0.95, 0.53, 0.0200),
+        (7.890, 0.65, 0.46, 0.0180),
+    ):
+        arch = [(0.0, y - 0.022), (0.12, y), (0.26, y + 0.016), (0.40, y + 0.004), (reach, y - 0.034)]
+        strokes.append(Stroke(tuple(arch), width, depth, 0.009, 0.0, 0.55))
+    for s, y, length in ((0.06, 7.665, 0.15), (0.24, 7.755, 0.16), (0.10, 7.845, 0.14)):
+        strokes.append(Stroke(((s, y), (s + 0.5 * length, y + 0.010), (s + length, y)), 0.0105, 0.38))
+    return tuple(strokes)
+
+
+FOREHEAD = _forehead()
+# Corrugator pulls the brows together: upright lines between them, never quite alike.
+FROWN = (
+    Stroke(((0.070, 7.395), (0.066, 7.46), (0.078, 7.54), (0.092, 7.61)), 0.0140, 1.0, 0.006),
+    Stroke(((0.124, 7.43), (0.122, 7.49), (0.136, 7.56)), 0.0110, 0.55, 0.006),
+    Stroke(((0.026, 7.44), (0.022, 7.50), (0.028, 7.56)), 0.0095, 0.35, 0.006),
+    Stroke(((0.10, 7.555), (0.17, 7.575), (0.25, 7.560)), 0.0120, 0.30),
+)
+# Orbicularis oculi is a ring: its lines run out from the corner like spokes, and under the lid along it.
+CROWS_FEET = (
+    Stroke(((0.545, 7.325), (0.60, 7.375), (0.66, 7.440)), 0.0095, 0.70, 0.005, 0.2, 0.6),
+    Stroke(((0.555, 7.290), (0.62, 7.310), (0.70, 7.345)), 0.0100, 0.95, 0.005, 0.2, 0.6),
+    Stroke(((0.555, 7.255), (0.62, 7.245), (0.70, 7.235)), 0.0100, 1.00, 0.005, 0.2, 0.6),
+    Stroke(((0.545, 7.220), (0.61, 7.185), (0.68, 7.140)), 0.0100, 0.85, 0.005, 0.2, 0.6),
+    Stroke(((0.530, 7.190), (0.58, 7.140), (0.63, 7.075)), 0.0095, 0.60, 0.005, 0.2, 0.6),
+    Stroke(((0.20, 7.200), (0.30, 7.160), (0.40, 7.165), (0.49, 7.205)), 0.0100, 0.60, 0.004),
+    Stroke(((0.19, 7.165), (0.29, 7.115), (0.40, 7.115), (0.50, 7.150)), 0.0110, 0.45, 0.005),
+    Stroke(((0.26, 7.070), (0.36, 7.060), (0.45, 7.085)), 0.0110, 0.25, 0.006),
+)
+# Levator labii alaeque nasi: across the bridge at the root, and slanting down its sides.
+NOSE = (
+    Stroke(((0.0, 7.335), (0.05, 7.340), (0.085, 7.355)), 0.0115, 0.80, 0.004, 0.0, 0.5),
+    Stroke(((0.0, 7.295), (0.05, 7.298), (0.080, 7.310)), 0.0095, 0.55, 0.004, 0.0, 0.5),
+    Stroke(((0.045, 7.245), (0.085, 7.205), (0.115, 7.150)), 0.0095, 0.90, 0.004),
+    Stroke(((0.055, 7.195), (0.095, 7.150), (0.122, 7.090)), 0.0095, 0.85, 0.004),
+    Stroke(((0.065, 7.140), (0.100, 7.095), (0.125, 7.035)), 0.0090, 0.60, 0.004),
+    Stroke(((0.115, 7.235), (0.145, 7.195), (0.165, 7.140)), 0.0085, 0.50, 0.004),
+)
+# The cheek is pushed over the lip: one deep fold from the wing past the corner.
+NASOLABIAL = (
+    Stroke(
+        ((0.190, 6.955), (0.225, 6.885), (0.290, 6.800), (0.340, 6.700), (0.352, 6.600), (0.340, 6.540)),
+        0.0300, 0.60, 0.005, 0.45, 0.55,
+    ),
+    Stroke(((0.250, 6.900), (0.315, 6.810), (0.365, 6.710)), 0.0140, 0.22, 0.006, 0.4, 0.5),
+)  # fmt: skip
+# Crescents outside a corner that is drawn back.
+SMILE = (
+    Stroke(((0.395, 6.735), (0.415, 6.660), (0.410, 6.585), (0.385, 6.525)), 0.0150, 0.70, 0.006, 0.45, 0.45),
+    Stroke(((0.455, 6.760), (0.478, 6.680), (0.470, 6.600)), 0.0140, 0.40, 0.006, 0.45, 0.45),
+    Stroke(((0.302, 6.640), (0.312, 6.610), (0.306, 6.575)), 0.0090, 0.60, 0.002),
+)
+# From a corner that is drawn down.
+MARIONETTE = (
+    Stroke(((0.292, 6.590), (0.312, 6.520), (0.318, 6.440), (0.300, 6.350)), 0.0150, 0.80, 0.006, 0.15, 0.6),
+)
+# The crease between lower lip and chin; its boss is dimpled besides.
+CHIN = (Stroke(((0.0, 6.437), (0.07, 6.432), (0.13, 6.405), (0.17, 6.36)), 0.0170, 0.75, 0.005, 0.0, 0.6),)
+# Orbicularis oris closes like a purse: lines run out from the lips.
+PURSE = tuple(
+    Stroke(((s, 6.735 - 0.10 * s), (1.12 * s + 0.004, 6.810 - 0.14 * s)), 0.0075, depth, 0.003, 0.15, 0.6)
+    for s, depth in ((0.022, 0.5), (0.062, 0.8), (0.098, 0.7), (0.136, 0.9), (0.172, 0.7), (0.206, 0.6))
+)

@@ -11,6 +11,7 @@ import itertools
 import os
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,11 +23,18 @@ sys.path.insert(0, str(ROOT))
 from tests.ui.harness import Offscreen as Window  # noqa: E402
 
 import facemorph  # noqa: E402
+from facemorph.core.facs import Sides  # noqa: E402
 from facemorph.core.morph import eased  # noqa: E402
 from facemorph.core.scene import Partner, Scene  # noqa: E402
 from facemorph.deform.controls import BoundControls, Controls, PeopleControl  # noqa: E402
 from facemorph.deform.people import PeopleMix  # noqa: E402
+from facemorph.deform.regions import RegionControl  # noqa: E402
 from facemorph.gl import sheet  # noqa: E402
+from facemorph.resources import builtin_faces  # noqa: E402
+from facemorph.ui import emotion  # noqa: E402
+from facemorph.ui import people as people_page  # noqa: E402
+from facemorph.ui.settings import Settings  # noqa: E402
+from facemorph.ui.state import Face  # noqa: E402
 
 DOCS = ROOT / "docs"
 FRAMES_A_WAY = 14
@@ -41,6 +49,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as folder:
         os.environ["FACEMORPH_CONFIG_DIR"] = os.environ["FACEMORPH_CACHE_DIR"] = folder
         window(DOCS / "window.png")
+        pages(DOCS / "pages.png")
     rig = facemorph.load("mei")
     with facemorph.Offscreen() as screen:
         animation(screen, rig, DOCS / "morph.webp")
@@ -59,6 +68,52 @@ def window(path: Path) -> None:
         screen.app.settings.hint_seen = True
         screen.frames(4)
         save(path, screen.pixels_now())
+
+
+def pages(path: Path) -> None:
+    """Four of the methods' pages, each in use, side by side."""
+    steps = {"Emotion": _emotion, "People": _people, "Regions": _regions, "Compare": _compare}
+    panels = []
+    for title, step in steps.items():
+        settings = Settings(hint_seen=True, right_page=title)
+        rig = facemorph.load("ada")
+        names, kept = tuple(builtin_faces()), Path(os.environ["FACEMORPH_CACHE_DIR"])
+        with Window(None, (1280, 800), settings=settings, thumbnails=kept, builtins=names) as screen:
+            screen.app.arriving = Face(rig, ("ada",), builtin=True)
+            screen.frames(3)
+            if title == "People":
+                screen.until(lambda app=screen.app: len(app.face_pictures) == len(app.builtins))
+            step(screen)
+            screen.frames(40)
+            panels.append(screen.pixels_now()[28:752, 904:])
+    save(path, np.concatenate(panels, axis=1))
+
+
+def _emotion(screen: Window) -> None:
+    emotion.put(screen.app, 0.35, 0.75)
+
+
+def _people(screen: Window) -> None:
+    people_page.ask_builtin(screen.app, "kofi")
+    screen.until(lambda: not screen.app.jobs.running)
+    people_page.choose_target(screen.app, "happy")
+    people_page.put(screen.app, 0.6, 0.4)
+
+
+def _regions(screen: Window) -> None:
+    app = screen.app
+    control = RegionControl({}, {"angry": 1.0}, 0.8)
+    app.controls = replace(app.controls, regions={"brows": control})
+    screen.frames(2)
+
+
+def _compare(screen: Window) -> None:
+    app = screen.app
+    app.pose = facemorph.Pose.between("neutral", "happy", 0.6, "cosine")
+    app.controls = replace(app.controls, facs={26: Sides.both(0.4)})
+    screen.frames(2)
+    screen.click(450, 480)
+    screen.until(lambda: app.lab.compare.paths is not None)
 
 
 def animation(screen: facemorph.Offscreen, rig: facemorph.Rig, path: Path) -> None:

@@ -16,7 +16,6 @@ import numpy as np
 
 from facemorph.core.arrays import Float32, Int32, UInt8
 from facemorph.core.camera import Camera
-from facemorph.core.lengths import displacements
 from facemorph.core.mesh import Labels
 from facemorph.core.normals import vertex_normals
 from facemorph.core.picture import Look, checked_size
@@ -24,7 +23,7 @@ from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.core.scene import Scene
-from facemorph.errors import OptionError, PoseError
+from facemorph.errors import DeformError, OptionError, PoseError
 
 if TYPE_CHECKING:
     from facemorph.deform.handles import HandleSet
@@ -114,13 +113,20 @@ def export_positions(rig: Rig, positions: Float32, path: str | Path) -> Path:
     return Path(path)
 
 
-def control_points(rig: Rig, source: str, target: str, points: int | str | Path) -> HandleSet:
-    """Points to rebuild `target` from: so many that cover what moves, or those of a handles file.
+def control_points(
+    rig: Rig,
+    source: str,
+    target: str,
+    points: int | str | Path,
+    kernel: Kernel = "r",
+    c: float | None = None,
+) -> HandleSet:
+    """Points to rebuild `target` from: so many that do it well by `kernel`, or those of a handles file.
 
     Raises `OptionError`, `DeformError`, `UnknownNameError`, `ControlsFileError`, `MeshFileError`.
     """
+    from facemorph.deform.control_points import rebuilding_vertices
     from facemorph.deform.handles import Handle, HandleSet
-    from facemorph.deform.rebuild import control_vertices
     from facemorph.io import read_handles
 
     if isinstance(points, str) and points.isdecimal():
@@ -129,17 +135,25 @@ def control_points(rig: Rig, source: str, target: str, points: int | str | Path)
         return read_handles(points, rig)
     if not 4 <= points <= MOST_POINTS:
         raise OptionError(f"RBF takes 4 to {MOST_POINTS} control points, not {points}.")
-    moved = displacements(rig.positions(state_of(target)), rig.positions(state_of(source)))
-    vertices = control_vertices(rig, points, moved)
-    return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices))
+    first, last = rig.positions(state_of(source)), rig.positions(state_of(target))
+    vertices = rebuilding_vertices(rig, first, last, points, kernel, c)
+    return HandleSet(tuple(Handle(int(vertex)) for vertex in vertices), kernel, c)
 
 
 def rebuild(
     rig: Rig, source: str, target: str, vertices: Int32, kernel: Kernel = "r", c: float | None = None
 ) -> Rebuilt:
-    """Expression `target` rebuilt from `source` and how the control points at `vertices` (n,) move (2.3)."""
+    """Expression `target` rebuilt from `source` and how the control points at `vertices` (n,) move (2.3).
+
+    Raises `DeformError` for points that make no deformation, `UnknownNameError`.
+    """
     from facemorph.deform.rebuild import rebuilt
 
+    strange = [int(vertex) for vertex in vertices if not 0 <= vertex < rig.neutral.vertex_count]
+    if strange:
+        raise DeformError(
+            f"there is no vertex {strange[0]}; the face has 0 to {rig.neutral.vertex_count - 1}."
+        )
     return rebuilt(rig, rig.positions(state_of(source)), rig.positions(state_of(target)), vertices, kernel, c)
 
 

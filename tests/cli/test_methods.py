@@ -9,13 +9,16 @@ import pytest
 from PIL import Image
 
 import facemorph
-from facemorph.api import save_expressions
+from facemorph.api import rebuild, save_expressions
 from facemorph.cli import main
 from facemorph.core.facs import Sides
 from facemorph.core.pose import Pose
+from facemorph.core.scene import Scene
+from facemorph.deform.controls import BoundControls, Controls, EmotionControl
 from facemorph.deform.handles import Handle, HandleSet
 from facemorph.deform.people import bilinear
 from facemorph.deform.sides import SidedUnits
+from facemorph.errors import DeformError
 from facemorph.io import read_mesh, write_handles
 
 
@@ -186,3 +189,35 @@ def test_a_tiny_heat_map_goes_without_a_legend(tmp_path):
     out = tmp_path / "x.png"
     assert main(["render", "ada", "--to", "happy", "--shading", "heat", "--size", "8x8", "-o", str(out)]) == 0
     assert Image.open(out).size == (8, 8)
+
+
+def test_a_face_of_another_topology_is_refused_by_name_before_its_expressions(capsys, tmp_path):
+    cube = tmp_path / "cube.obj"
+    cube.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    line = refused(capsys, "export", "--bilinear", f"ada,{cube}", "happy,sad", "-o", str(tmp_path / "x.obj"))
+    assert f"{cube}: it has 3 vertices" in line
+    assert "one topology" in line
+    assert not (tmp_path / "x.obj").exists()
+
+
+def test_what_the_second_person_lacks_is_said_with_what_they_have(ada, capsys, tmp_path):
+    from facemorph.io import write_obj
+
+    write_obj(tmp_path / "neutral.obj", ada.neutral)
+    write_obj(tmp_path / "happy.obj", ada.posed({"happy": 1.0}))
+    pair = ["--bilinear", f"ada,{tmp_path}", "neutral,happy", "--s", "0.5", "-o", str(tmp_path / "x.obj")]
+    line = refused(capsys, "export", *pair, "--au", "12")
+    assert f"no shape of {tmp_path} is called 'AU12'. There are: neutral, happy." in line
+
+
+def test_points_off_the_face_are_refused_by_the_library(ada):
+    with pytest.raises(DeformError, match="no vertex 99999; the face has 0 to"):
+        rebuild(ada, "neutral", "happy", np.array([5, 99999, 9, 100]))
+
+
+def test_the_librarys_methods_mean_what_the_options_mean(ada, tmp_path):
+    controls = Controls(facs={12: Sides.both(0.8)}, emotion=EmotionControl(0.3, 0.6))
+    scene = Scene.moved(Pose(), BoundControls(ada)(Pose(), controls))
+    facemorph.export(ada, scene, tmp_path / "library.obj")
+    expected = exported(tmp_path, "ada", "--au", "12=0.8", "--emotion", "0.3,0.6")
+    np.testing.assert_array_equal(read_mesh(tmp_path / "library.obj").positions, expected)

@@ -102,3 +102,20 @@ def test_handles_off_the_face_and_unknown_people_are_refused(rig):
     lost = Controls(people=PeopleControl(PeopleMix({"me": 1.0}, "nobody", 0.5)))
     with pytest.raises(UnknownNameError, match="nobody"):
         BoundControls(rig, "me")(Pose(), lost)
+
+
+@pytest.mark.parametrize(
+    "lacking",
+    [
+        Controls(emotion=EmotionControl(0.0, -0.5)),
+        Controls(facs={27: Sides.both(0.5)}),
+        Controls(people=PeopleControl(None, {}, state_of("angry"), 0.5)),
+        Controls(regions={"mouth": RegionControl(target={"angry": 1.0}, t=0.5)}),
+    ],
+    ids=("emotion", "facs", "people", "regions"),
+)
+def test_a_method_that_asks_for_a_shape_the_face_lacks_is_refused(rig, lacking):
+    with pytest.raises(UnknownNameError, match=r"no shape is called '(angry|AU27)'.*AU12"):
+        BoundControls(rig)(Pose(), lacking)
+    everything_off = replace(lacking, off=frozenset(METHODS))
+    assert not BoundControls(rig)(Pose(), everything_off).weights

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from facemorph.core.correctives import Corrective, Hat
 from facemorph.core.facs import Sides
 from facemorph.core.motion import Contribution, total
 from facemorph.core.pose import Pose
@@ -183,3 +184,17 @@ def test_unknown_regions_and_shapes_and_faces_without_regions_are_refused(small_
         RegionSet.of(small_rig)
     with pytest.raises(DeformError, match="at most 1"):
         RegionSet(small_rig, ("a", "b"), np.ones((2, small_rig.neutral.vertex_count), np.float32))
+
+
+def test_a_person_without_correctives_mixes_with_one_who_has_them(small_rig, other):
+    first = small_rig.names[0]
+    mended = replace(
+        small_rig,
+        shapes=(*small_rig.shapes, Shape("mend", "Mend", "corrective")),
+        deltas=np.concatenate([small_rig.deltas, small_rig.deltas[-1:] * np.float32(0.3)]),
+        correctives=(Corrective("mend", hats=(Hat(first),)),),
+    )
+    weights, pose = {"own": 0.4, "other": 0.6}, Pose.of({first: 0.5})
+    offsets = People({"own": mended, "other": other}).offsets(weights, mended.coefficients(pose))
+    wanted = 0.4 * mended.positions(pose) + 0.6 * other.positions(pose)
+    np.testing.assert_allclose(mended.positions(pose) + offsets, wanted, atol=1e-5)

@@ -8,9 +8,11 @@ from scipy.interpolate import RBFInterpolator
 
 from facemorph.core.mesh import Mesh
 from facemorph.core.rig import Rig
+from facemorph.deform.control_points import control_vertices, rebuilding_vertices
 from facemorph.deform.rbf import KERNELS, RbfField, checked_kernel
-from facemorph.deform.rebuild import control_vertices, rebuilt
+from facemorph.deform.rebuild import rebuilt
 from facemorph.errors import DeformError, OptionError
+from facemorph.io import load_rig
 
 RNG = np.random.default_rng(5)
 POINTS = RNG.normal(size=(40, 3)) * (7, 10, 8) + (0, 160, 3)
@@ -111,3 +113,59 @@ def test_control_vertices_are_different_places_and_no_more_than_there_are(bump_r
     one_place = Rig.from_arrays(Mesh.from_triangles(np.zeros((9, 3)), np.array([[0, 1, 2]])), {})
     with pytest.raises(DeformError, match="only 1"):
         control_vertices(one_place, 5)
+
+
+def errors_of(rig, vertices, kernel, c=None):
+    source, target = rig.positions({}), rig.positions({"bump": 1.0})
+    field = RbfField(source[vertices].astype(np.float64), source, kernel, c, exactly=True)
+    away = field((target - source)[vertices].astype(np.float64)) - (target - source)
+    return float((away**2).sum())
+
+
+@pytest.mark.parametrize(("kernel", "c"), [("r", None), ("r3", None), ("r5", None), ("multiquadric", 0.5)])
+def test_the_next_point_is_the_one_that_leaves_the_least_error(bump_rig, kernel, c):
+    source, target = bump_rig.positions({}), bump_rig.positions({"bump": 1.0})
+    chosen = rebuilding_vertices(bump_rig, source, target, 10, kernel, c).tolist()
+    assert chosen[:6] == control_vertices(bump_rig, 6).tolist()
+    for held in range(6, 10):
+        others = [v for v in range(bump_rig.neutral.vertex_count) if v not in chosen[:held]]
+        errors = [errors_of(bump_rig, [*chosen[:held], v], kernel, c) for v in others]
+        assert errors_of(bump_rig, chosen[: held + 1], kernel, c) == pytest.approx(min(errors), rel=1e-3)
+
+
+@pytest.mark.parametrize("kernel", KERNELS)
+def test_chosen_points_are_as_many_as_asked_for_all_different_and_always_the_same(bump_rig, kernel):
+    source, target = bump_rig.positions({}), bump_rig.positions({"bump": 1.0})
+    for count in (4, 7, 40, 99):
+        chosen = rebuilding_vertices(bump_rig, source, target, count, kernel)
+        assert len(set(chosen.tolist())) == count
+        assert np.array_equal(chosen, rebuilding_vertices(bump_rig, source, target, count, kernel))
+    with pytest.raises(DeformError, match="only 99"):
+        rebuilding_vertices(bump_rig, source, target, 100, kernel)
+
+
+@pytest.mark.parametrize(("kernel", "c"), [("r", None), ("r5", None), ("multiquadric", 0.5)])
+def test_fewer_points_are_the_first_of_more(bump_rig, kernel, c):
+    source, target = bump_rig.positions({}), bump_rig.positions({"bump": 1.0})
+    most = rebuilding_vertices(bump_rig, source, target, 60, kernel, c)
+    for count in (8, 20, 41):
+        assert np.array_equal(rebuilding_vertices(bump_rig, source, target, count, kernel, c), most[:count])
+
+
+def test_where_nothing_moves_or_the_face_is_flat_the_points_cover_it(bump_rig):
+    source = bump_rig.positions({})
+    assert np.array_equal(rebuilding_vertices(bump_rig, source, source, 20), control_vertices(bump_rig, 20))
+    flat = bump_rig.neutral.with_positions(source * np.float32([1, 1, 0]))
+    rig = Rig.from_arrays(flat, {"bump": bump_rig.positions({"bump": 1.0})})
+    chosen = rebuilding_vertices(rig, rig.positions({}), rig.positions({"bump": 1.0}), 20)
+    assert np.array_equal(chosen, control_vertices(rig, 20))
+
+
+def test_points_chosen_by_the_error_open_closed_lips():
+    """Points that cover a face alike nearly coincide on closed lips, and cannot part them."""
+    rig = load_rig("ada")
+    source, target = rig.positions({}), rig.positions({"surprised": 1.0})
+    covering = rebuilt(rig, source, target, control_vertices(rig, 40)).rms_percent
+    chosen = rebuilt(rig, source, target, rebuilding_vertices(rig, source, target, 40)).rms_percent
+    assert chosen < 0.8
+    assert chosen < 0.85 * covering

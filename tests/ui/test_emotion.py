@@ -14,7 +14,7 @@ from facemorph.core.emotion import PAPER_POLES, Pole, emotion_weights, on_disc, 
 from facemorph.core.emotion_path import LONGEST_SECS, EmotionPath
 from facemorph.core.facs import Sides
 from facemorph.core.rig import Rig, Shape
-from facemorph.ui import actions, emotion, units
+from facemorph.ui import actions, emotion, emotion_paths, emotion_poles, units
 from facemorph.ui.emotion_page import EmotionPage, Pad
 from facemorph.ui.settings import Settings
 from facemorph.ui.state import Face
@@ -185,27 +185,27 @@ def test_a_pole_is_dragged_round_the_circle_and_back_by_undo(window: Offscreen) 
 
 def test_a_pole_does_not_come_to_stand_where_the_map_would_break(window: Offscreen) -> None:
     app = window.app
-    emotion.move_pole(app, "happy", 2.0)
-    emotion.move_pole(app, "happy", 20.0)  # leaves 160 degrees to afraid
+    emotion_poles.move_pole(app, "happy", 2.0)
+    emotion_poles.move_pole(app, "happy", 20.0)  # leaves 160 degrees to afraid
     assert emotion.poles_of(app) == PAPER_POLES
-    emotion.move_pole(app, "happy", 35.0)
+    emotion_poles.move_pole(app, "happy", 35.0)
     assert app.controls.emotion.poles[1] == Pole("happy", 35.0)
 
 
 def test_more_poles_come_into_the_widest_gaps_and_go_again(window: Offscreen) -> None:
     app = window.app
-    emotion.toggle_pole(app, "surprised")
-    emotion.toggle_pole(app, "disgusted")
+    emotion_poles.toggle_pole(app, "surprised")
+    emotion_poles.toggle_pole(app, "disgusted")
     poles = {pole.name: pole.angle_deg for pole in app.controls.emotion.poles}
     assert poles == {
         "happy": 90.0, "surprised": 45.0, "sad": 0.0, "disgusted": 315.0, "angry": 270.0, "afraid": 180.0
     }  # fmt: skip
-    emotion.spread_evenly(app)
+    emotion_poles.spread_evenly(app)
     names = ["happy", "surprised", "sad", "disgusted", "angry", "afraid"]
     assert app.controls.emotion.poles == spread_poles(names)
-    emotion.to_usual_poles(app)
+    emotion_poles.to_usual_poles(app)
     assert app.controls.emotion.poles == PAPER_POLES
-    emotion.stand_everywhere(app)
+    emotion_poles.stand_everywhere(app)
     assert len(app.controls.emotion.poles) == 6
     window.frames(3)
 
@@ -213,7 +213,7 @@ def test_more_poles_come_into_the_widest_gaps_and_go_again(window: Offscreen) ->
 def test_three_poles_are_the_fewest_and_always_make_a_map(window: Offscreen) -> None:
     app = window.app
     for name in ("sad", "happy", "afraid", "angry"):
-        emotion.toggle_pole(app, name)
+        emotion_poles.toggle_pole(app, name)
         window.frames(2)
     # Without sad half a circle would be empty, so the rest is spread; nothing goes after that.
     assert app.controls.emotion.poles == spread_poles(["happy", "angry", "afraid"])
@@ -231,7 +231,7 @@ def test_a_button_puts_an_expression_on_the_circle_as_one_step(window: Offscreen
         names = {pole.name for pole in emotion.poles_of(window.app)}
         if names == {"happy", "sad", "angry", "afraid", "surprised"}:
             break
-        emotion.to_usual_poles(window.app)
+        emotion_poles.to_usual_poles(window.app)
         window.frames(2)
     else:
         raise AssertionError("no button there puts Surprised on the circle")
@@ -255,11 +255,11 @@ def test_of_many_expressions_the_first_stand_round_the_circle(opengl: None) -> N
     names = tuple(f"look {k} with a rather long name" for k in range(30))
     with opened(ball_rig(names, rings=6)) as window:
         assert len(emotion.poles_of(window.app)) == emotion.USUAL_POLES
-        emotion.stand_everywhere(window.app)
+        emotion_poles.stand_everywhere(window.app)
         window.frames(3)
-        assert len(emotion.poles_of(window.app)) == emotion.MOST_POLES
-        emotion.toggle_pole(window.app, names[-1])
-        assert len(emotion.poles_of(window.app)) == emotion.MOST_POLES
+        assert len(emotion.poles_of(window.app)) == emotion_poles.MOST_POLES
+        emotion_poles.toggle_pole(window.app, names[-1])
+        assert len(emotion.poles_of(window.app)) == emotion_poles.MOST_POLES
 
 
 @pytest.mark.parametrize("names", [(), ("happy",), ("happy", "sad")])
@@ -268,7 +268,7 @@ def test_with_fewer_than_three_expressions_the_page_says_so(opengl: None, names:
         assert page_of(window).pad is None
         for title in ("Emotion: to neutral", "Emotion: record or stop", "Emotion: play or pause"):
             window.run(title)
-        emotion.stand_everywhere(window.app)
+        emotion_poles.stand_everywhere(window.app)
         emotion.put(window.app, 0.5, 0.5)
         window.frames(3)
         assert page_of(window).recorder is None
@@ -298,7 +298,7 @@ def test_every_pole_gets_a_picture_of_this_face_one_a_frame(opengl: None, rig: R
         assert np.diff(counts).max() <= 1
         assert set(page_of(window).pictures) == {pole.name for pole in PAPER_POLES}
         assert len(set(page_of(window).pictures.values())) == 4
-        emotion.toggle_pole(window.app, "surprised")
+        emotion_poles.toggle_pole(window.app, "surprised")
         window.until(lambda: pictures_done(window))
         assert "surprised" in page_of(window).pictures
 
@@ -342,7 +342,7 @@ def test_the_window_sleeps_on_the_page(window: Offscreen) -> None:
 
 def record(window: Offscreen, places: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Record a drag through places of the map, a frame each; gives where the cursor was."""
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     window.frames(2)
     pad, there = pad_of(window), []
     window.move(*pad.place(*places[0]))
@@ -353,7 +353,7 @@ def record(window: Offscreen, places: list[tuple[float, float]]) -> list[tuple[f
         there.append(cursor(window))
     window.release()
     window.frames(20)
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     window.frames(2)
     return there
 
@@ -389,7 +389,7 @@ def test_recording_is_one_step_of_undo_and_playing_none(window: Offscreen) -> No
     emotion.to_neutral(window.app)
     window.frames(2)
     words, steps = window.app.history.undo_words, len(window.app.history._past)
-    emotion.toggle_play(window.app)
+    emotion_paths.toggle_play(window.app)
     window.frames(10)
     units.set_unit(window.app, 1, Sides.both(0.5))
     window.frames(80)
@@ -406,7 +406,7 @@ def test_recording_is_one_step_of_undo_and_playing_none(window: Offscreen) -> No
 
 
 def test_the_window_is_awake_while_it_records_or_plays_and_only_then(window: Offscreen) -> None:
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     assert asleep(window)  # nothing runs before the first press
     pad = pad_of(window)
     window.move(*pad.place(0.2, 0.1))
@@ -415,9 +415,9 @@ def test_the_window_is_awake_while_it_records_or_plays_and_only_then(window: Off
     assert window.session.wants_frame_in() == 0.0
     window.release()
     assert window.session.wants_frame_in() == 0.0
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     assert asleep(window)
-    emotion.toggle_play(window.app)
+    emotion_paths.toggle_play(window.app)
     assert window.session.wants_frame_in() == 0.0
     window.frames(60)
     assert asleep(window)
@@ -427,22 +427,22 @@ def test_speed_and_loop(window: Offscreen) -> None:
     page = page_of(window)
     page.path = EmotionPath(((0.0, 0.0, 0.5), (1.0, 1.0, 0.5)))
     page.speed = 2.0
-    emotion.toggle_play(window.app)
+    emotion_paths.toggle_play(window.app)
     window.frames(15)
     assert cursor(window) == pytest.approx((0.5, 0.5))
-    emotion.toggle_loop(window.app)
+    emotion_paths.toggle_loop(window.app)
     window.frames(20)
     # There and back: 35 frames at double speed are 70/60 of the way.
     assert cursor(window) == pytest.approx((1.0 - 10 / 60, 0.5))
     assert page.player.playing
-    emotion.toggle_play(window.app)
+    emotion_paths.toggle_play(window.app)
     window.frames(5)
     assert cursor(window) == pytest.approx((1.0 - 10 / 60, 0.5))
 
 
 def test_a_hand_on_the_pad_ends_the_playing(window: Offscreen) -> None:
     page_of(window).path = EmotionPath(((0.0, 0.0, 0.5), (9.0, 1.0, 0.5)))
-    emotion.toggle_play(window.app)
+    emotion_paths.toggle_play(window.app)
     window.frames(3)
     pad = pad_of(window)
     window.drag(pad.place(-0.2, -0.2), pad.place(-0.5, -0.5))
@@ -456,7 +456,7 @@ def test_undo_reset_and_another_face_end_the_playing(window: Offscreen, how: str
     emotion.put(app, 0.5, 0.5)
     window.frames(2)
     page_of(window).path = EmotionPath(((0.0, 0.0, 0.5), (9.0, 1.0, 0.5)))
-    emotion.toggle_play(app)
+    emotion_paths.toggle_play(app)
     window.frames(3)
     if how == "open":
         app.arriving = Face(ball_rig(name="Other", rings=8), ("other",))
@@ -469,7 +469,7 @@ def test_undo_reset_and_another_face_end_the_playing(window: Offscreen, how: str
 
 
 def test_a_full_recording_stops_itself_and_says_so(window: Offscreen) -> None:
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     pad = pad_of(window)
     window.drag(pad.place(0.2, 0.1), pad.place(0.6, 0.1))
     window.clock.secs += LONGEST_SECS
@@ -482,9 +482,9 @@ def test_a_full_recording_stops_itself_and_says_so(window: Offscreen) -> None:
 def test_recording_nothing_keeps_the_path_before(window: Offscreen) -> None:
     record(window, WAY)
     path = page_of(window).path
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     window.frames(3)
-    emotion.toggle_record(window.app)
+    emotion_paths.toggle_record(window.app)
     assert page_of(window).path is path
     assert "Nothing was recorded" in window.app.messages.shown[-1].text
 
@@ -510,7 +510,7 @@ def recording_begins(window: Offscreen, y: float) -> bool:
 def test_a_path_is_saved_and_opened_through_the_chooser(window: Offscreen, tmp_path: Path) -> None:
     app = window.app
     record(window, WAY)
-    emotion.toggle_pole(app, "surprised")
+    emotion_poles.toggle_pole(app, "surprised")
     window.frames(2)
     path, poles = page_of(window).path, emotion.poles_of(app)
     assert path is not None
@@ -519,8 +519,8 @@ def test_a_path_is_saved_and_opened_through_the_chooser(window: Offscreen, tmp_p
     window.frames(3)
     window.key("enter")
     (saved,) = tmp_path.glob("*.json")
-    emotion.clear_path(app)
-    emotion.to_usual_poles(app)
+    emotion_paths.clear_path(app)
+    emotion_poles.to_usual_poles(app)
     actions.ask_for(app, "open path")
     window.frames(3)
     window.type(saved.name)
@@ -537,7 +537,7 @@ def test_a_file_that_is_no_path_changes_nothing_and_says_why(window: Offscreen, 
     path = page_of(window).path
     for text in ("{}", "[[[", '{"format": "facemorph emotion path 1", "poles": [], "samples": []}'):
         (tmp_path / "bad.json").write_text(text)
-        emotion.open_path(window.app, tmp_path / "bad.json")
+        emotion_paths.open_path(window.app, tmp_path / "bad.json")
         window.frames(2)
         assert page_of(window).path is path
         assert "bad.json" in window.app.messages.shown[-1].text
@@ -550,12 +550,12 @@ def test_a_path_among_poles_that_the_face_lacks_plays_among_its_own(opengl: None
     write_emotion_path(tmp_path / "a.json", recorded, PAPER_POLES)
     names = ("joy", "grief", "rage")
     with opened(ball_rig(names, rings=8)) as window:
-        emotion.open_path(window.app, tmp_path / "a.json")
+        emotion_paths.open_path(window.app, tmp_path / "a.json")
         window.frames(2)
         assert page_of(window).path == recorded
         assert emotion.poles_of(window.app) == spread_poles(names)
         assert "'sad'" in window.app.messages.shown[-1].text
-        emotion.toggle_play(window.app)
+        emotion_paths.toggle_play(window.app)
         window.frames(70)
         assert cursor(window) == pytest.approx((1.0, 0.5))
 
@@ -586,3 +586,13 @@ def test_turning_the_face_while_the_page_is_on_show_moves_no_cursor(window: Offs
     window.drag(FACE, (FACE[0] + 60, FACE[1]))
     assert window.app.camera.azimuth_deg != azimuth
     assert cursor(window) == (0.0, 0.0)
+
+
+def test_poles_that_the_face_lacks_switch_the_page_off_with_a_message(window: Offscreen) -> None:
+    app = window.app
+    lost = replace(app.controls.emotion, y=1.0, poles=spread_poles(("grin", "sad", "angry")))
+    app.controls = replace(app.controls, emotion=lost, facs={12: Sides.both(0.5)})
+    window.frames(2)
+    assert app.controls.off == {"emotion"}
+    assert "Emotion is switched off. no shape is called 'grin'" in app.messages.shown[-1].text
+    assert app.shown_state() == {"AU12": 0.5}

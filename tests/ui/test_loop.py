@@ -10,12 +10,15 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TypeVar
 
 import pytest
 
+T = TypeVar("T")
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 NULL_WINDOW = '''
@@ -76,7 +79,7 @@ print(json.dumps([status, *steps]))
 '''
 
 
-def run_python(code: str, environment: dict[str, str], secs: float = 120) -> subprocess.CompletedProcess[str]:
+def run_python(code: str, environment: dict[str, str], secs: float = 300) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-c", code],
         env=environment,
@@ -244,7 +247,17 @@ def x_display(environment: dict[str, str]) -> Iterator[str]:
 
 X_WINDOW = """
 import json
+from imgui_bundle import imgui
 import facemorph.ui.run as program
+frame, seen = program.window.Window.frame, [None]
+def told_frame(screen, build, app):
+    frame(screen, build, app)
+    io = imgui.get_io()
+    now = [round(io.mouse_pos.x), round(io.mouse_pos.y), bool(io.mouse_down[0])]
+    if now != seen[0]:
+        seen[0] = now
+        print("mouse", json.dumps(now), flush=True)
+program.window.Window.frame = told_frame
 loop = program._loop
 def watched(app, session, screen, frames):
     loop(app, session, screen, frames)
@@ -274,29 +287,40 @@ def test_on_a_real_screen_a_face_is_morphed_and_left(
         stderr=subprocess.PIPE,
         text=True,
     )
+    lines: list[str] = []
+    reader = threading.Thread(target=lambda: lines.extend(iter(program.stdout.readline, "")))
+    errors: list[str] = []
+    other_reader = threading.Thread(target=lambda: errors.append(program.stderr.read()))
+    reader.start()
+    other_reader.start()
     try:
         # The face's name comes into the title once it is on show.
         window = wait_for(lambda: x("search", "--onlyvisible", "--name", "ball.*facemorph").split("\n")[-1])
-        time.sleep(0.5)
 
-        def at(place_x: float, place_y: float) -> None:
-            x("mousemove", "--window", window, place_x, place_y)
-            time.sleep(0.12)
+        def does(*words: object, until: list[object]) -> None:
+            """One event; the next comes once the window has drawn a frame with it."""
+            before = len(lines)
+            x(*words)
+            told = f"mouse {json.dumps(until)}\n"
+            wait_for(lambda: told in lines[max(before - 1, 0) :] or program.poll() is not None)
+
+        def at(place_x: float, place_y: float, down: bool = False) -> None:
+            does("mousemove", "--window", window, place_x, place_y, until=[place_x, place_y, down])
+
+        def button(down: bool, place: tuple[float, float]) -> None:
+            does("mousedown" if down else "mouseup", 1, until=[*place, down])
 
         def click(place_x: float, place_y: float) -> None:
             at(place_x, place_y)
-            x("mousedown", 1)
-            time.sleep(0.12)
-            x("mouseup", 1)
-            time.sleep(0.12)
+            button(True, (place_x, place_y))
+            button(False, (place_x, place_y))
 
-        def drag(start: tuple[float, float], end: tuple[float, float]) -> None:
+        def drag(start: tuple[int, int], end: tuple[int, int]) -> None:
             at(*start)
-            x("mousedown", 1)
+            button(True, start)
             for k in range(1, 9):
-                at(start[0] + (end[0] - start[0]) * k / 8, start[1] + (end[1] - start[1]) * k / 8)
-            x("mouseup", 1)
-            time.sleep(0.12)
+                at(*(a + (b - a) * k // 8 for a, b in zip(start, end, strict=True)), down=True)
+            button(False, end)
 
         click(134, 14)
         click(134, 98)
@@ -304,12 +328,14 @@ def test_on_a_real_screen_a_face_is_morphed_and_left(
         drag((450, 400), (530, 400))
         click(27, 14)
         click(30, 213)
-        out, errors = program.communicate(timeout=30)
+        program.wait(120)
     finally:
         program.kill()
         program.wait()
+        reader.join()
+        other_reader.join()
     assert program.returncode == 0, errors
-    result, status = out.strip().splitlines()[-2:]
+    result, status = "".join(lines).strip().splitlines()[-2:]
     assert status == "0"
     target, t, azimuth = json.loads(result)
     assert target == {"sad": 1.0}
@@ -317,11 +343,11 @@ def test_on_a_real_screen_a_face_is_morphed_and_left(
     assert azimuth < -10.0
 
 
-def wait_for(find, secs: float = 60.0) -> str:
+def wait_for(find: Callable[[], T], secs: float = 180.0) -> T:
     end = time.monotonic() + secs
     while time.monotonic() < end:
         found = find()
         if found:
             return found
-        time.sleep(0.1)
-    raise AssertionError("the window never came up")
+        time.sleep(0.02)
+    raise AssertionError("it never happened")

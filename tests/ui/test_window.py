@@ -15,6 +15,7 @@ from facemorph.core.rig import Rig
 from facemorph.errors import GraphicsError
 from facemorph.ui import actions, files, fonts
 from facemorph.ui.commands import MENUS, STATIC, commands
+from facemorph.ui.layout import LEAST_SIDE_WIDTH
 from facemorph.ui.panels.palette import ranked
 from facemorph.ui.settings import Settings
 from facemorph.ui.state import Face
@@ -221,6 +222,18 @@ def test_every_command_of_the_table_runs(window: Offscreen, tmp_path: Path) -> N
         window.key("escape")
     assert len(titles) == len(table) - 1
     window.until(lambda: not app.jobs.running)
+
+
+def test_the_light_is_chosen_in_the_menu_and_kept(window: Offscreen) -> None:
+    app = window.app
+    assert app.look.light == app.settings.light == "studio"
+    before = window.pixels_now().astype(int)
+    window.run("Flat light")
+    assert app.look.light == app.settings.light == "flat"
+    chosen = [c.title for c in commands(app) if c.menu == "View/Lights" and c.checked and c.checked(app)]
+    assert chosen == ["Flat light"]
+    face = np.abs(window.pixels_now().astype(int) - before)[300:500, 400:800]
+    assert face.max() > 20, "the face is drawn in it"
 
 
 def test_every_command_has_a_place_and_no_two_share_a_key(window: Offscreen) -> None:
@@ -540,3 +553,24 @@ def test_digits_are_equally_wide(window: Offscreen) -> None:
     imgui.new_frame()
     assert len({imgui.calc_text_size(digit * 4).x for digit in "0123456789"}) == 1
     imgui.end_frame()
+
+
+@pytest.mark.parametrize("page", ["Shapes", "FACS", "Emotion", "People", "Handles", "Regions", "Compare"])
+def test_no_buttons_words_are_cut_off_in_the_narrowest_panel(
+    page: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn, button = [], imgui.button
+
+    def measured(label: str, *size: object) -> bool:
+        pressed = button(label, *size)
+        low, high = imgui.get_item_rect_min().x, imgui.get_item_rect_max().x
+        edge = imgui.get_window_pos().x + imgui.get_window_width()
+        words = imgui.calc_text_size(label, hide_text_after_double_hash=True).x
+        drawn.append((label, round(high - low) >= round(words), high <= edge + 0.5))
+        return pressed
+
+    with Offscreen(ball_rig(), settings=Settings(right_page=page, right_width=LEAST_SIDE_WIDTH)) as window:
+        monkeypatch.setattr(imgui, "button", measured)
+        window.frames(3)
+    assert [part for part in drawn if not all(part[1:])] == []
+    assert len({label for label, *_ in drawn}) > 8

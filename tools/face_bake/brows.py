@@ -156,6 +156,12 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([one, one * [-1, 1]]), np.concatenate([half, half])[:, None, None]
 
 
+def strip_places(look: Look) -> np.ndarray:
+    """Where on the base head's front (n, 2) each vertex of the strips lies."""
+    lines, _ = _lines(look)
+    return np.repeat(lines.reshape(-1, 2), 2, axis=0)
+
+
 def _uv(count: int) -> np.ndarray:
     """Strips take turns in the picture's tiles; roots at its top. The right brow mirrors the left."""
     strips = []

@@ -33,7 +33,7 @@ class HairPart:
         first, first_uv = (COLUMNS + 1) * (ROWS + 1), len(sheet_uv)
         self.groups = [
             PartGroup("hair", "hair", sheet, sheet),
-            PartGroup("hair_locks", "hair", locks + first, locks + first_uv),
+            PartGroup("hair_locks", "hair_lock", locks + first, locks + first_uv),
         ]
         self.uv = np.concatenate([sheet_uv, lock_uv])
 

@@ -65,7 +65,7 @@ class Person:
 ADA = Person(
     "ada",
     "Ada",
-    "A young woman with fair, freckled skin, brown hair and blue-grey eyes.",
+    "A young woman with fair, freckled skin, brown hair parted at the side and blue-grey eyes.",
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"caucasian": 1.0}),
     Look(
         skin=(0.90, 0.72, 0.62),
@@ -132,7 +132,7 @@ BEN = Person(
 MEI = Person(
     "mei",
     "Mei",
-    "A young woman with light skin, black hair and dark brown eyes.",
+    "A young woman with light skin, a black bob with a fringe and dark brown eyes.",
     Phenotype(gender=0.05, muscle=0.45, proportions=1.0, descent={"asian": 1.0}),
     Look(
         skin=(0.91, 0.75, 0.62),
@@ -188,7 +188,7 @@ KOFI = Person(
 ZOLA = Person(
     "zola",
     "Zola",
-    "A young woman with brown skin, cropped black hair and brown eyes.",
+    "A young woman with brown skin, a round head of black coils and brown eyes.",
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"african": 0.8, "caucasian": 0.2}),
     Look(
         skin=(0.52, 0.34, 0.25),
@@ -218,7 +218,7 @@ ZOLA = Person(
 OMAR = Person(
     "omar",
     "Omar",
-    "A man past fifty with tanned skin, short grey hair, stubble and brown eyes.",
+    "A man past fifty with tanned skin, short receding grey hair, stubble and brown eyes.",
     Phenotype(gender=0.95, age=0.72, weight=0.55, descent={"caucasian": 0.6, "asian": 0.25, "african": 0.15}),
     Look(
         skin=(0.74, 0.55, 0.43),

@@ -1,9 +1,12 @@
 """Soft regions of the face, so that its parts can wear different expressions."""
 
 import numpy as np
+from scipy.spatial import cKDTree
 
+from .brows import strip_places
 from .head import Head
 from .paintkit import smoothstep
+from .people import ADA
 
 # Per region a few soft spots on the base head's front: |x|, y and their radii, in decimetres.
 SPOTS = {
@@ -63,4 +66,8 @@ def build_regions(head: Head) -> dict[str, np.ndarray]:
     for group_name, region in PARTS.items():
         group = head.group(group_name)
         weights[group.first : group.first + group.count, names.index(region)] = FULL
+    # Hairs of a brow move with the skin that they are rooted in.
+    brows, front = head.group("brows"), np.flatnonzero(points[:, 2] > 0.9)
+    nearest = cKDTree(points[front, :2]).query(strip_places(ADA.look))[1]
+    weights[brows.first : brows.first + brows.count] = weights[front[nearest]]
     return {name: weights[:, k] for k, name in enumerate(names)}

@@ -25,9 +25,10 @@ MATERIALS = {
     "lash": None,
     "brow": None,
     "hair": None,
+    "hair_lock": None,
 }
 # These have a colour of each person's own; their pictures' opacity lets through what lies behind them.
-SEE_THROUGH = ("lash", "brow", "hair")
+SEE_THROUGH = ("lash", "brow", "hair", "hair_lock")
 
 # Of materials that let light through.
 OPACITY = {"tear": 0.3}
@@ -71,6 +72,7 @@ def write_mtl(path: Path, person: Person):
         "lash": lash_material(look),
         "brow": brow_material(look),
         "hair": hair_material(look),
+        "hair_lock": hair_material(look),
     }
     for name, (colour, shine, exponent, picture) in materials.items():
         diffuse, specular = (" ".join(f"{part:g}" for part in value) for value in (colour, (shine,) * 3))

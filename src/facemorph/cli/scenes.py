@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 
 from facemorph.cli.values import pose_between, pose_from
 from facemorph.core.facs import Sides, known_unit, parsed_units, units_of
@@ -11,8 +12,8 @@ from facemorph.core.pose import NEUTRAL, parsed_number, parsed_weight
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Partner, Scene
 from facemorph.deform.controls import BoundControls, Controls, EmotionControl, PeopleControl
-from facemorph.deform.people import PeopleMix
-from facemorph.errors import OptionError
+from facemorph.deform.people import People, PeopleMix
+from facemorph.errors import OptionError, UnknownNameError
 
 
 def rig_and_scene(options: argparse.Namespace) -> tuple[Rig, Scene]:
@@ -36,12 +37,15 @@ def _bilinear(options: argparse.Namespace) -> tuple[Rig, Scene]:
     expressions = _pair(options.bilinear[1], "two expressions")
     s = parsed_weight(options.s, "--s") if options.s is not None else 0.0
     rig, other = (_loaded(options, name) for name in names)
+    People(dict(zip(names, (rig, other), strict=True)))
     pose = pose_between(options, rig, *expressions)
-    for name in pose.names():
-        other.shape(name)
-    first, second = ("first", "second") if names[0] != names[1] else ("first", "first")
+    first, second = names
     controls = _controls(options, rig, PeopleMix({first: 1.0}, second, s))
     bound = BoundControls(rig, first, {second: other})
+    moving = bound(pose, replace(controls, people=PeopleControl())).added_to(pose)
+    for name in moving.names() - {NEUTRAL}:
+        if name not in other.names:
+            raise UnknownNameError(f"shape of {second}", name, (NEUTRAL, *other.names))
     partners = [Partner(other, s)] if first != second else []
     return rig, Scene.moved(pose, bound(pose, controls), partners)
 

@@ -142,7 +142,7 @@ def rbf(options: argparse.Namespace) -> int:
     c = None if options.c is None else parsed_number(options.c, "--c")
     output = checked_suffix(options.output, ".obj") if options.output else None
     rig = api.load(options.face)
-    points = api.control_points(rig, options.source, options.target, options.points)
+    points = api.control_points(rig, options.source, options.target, options.points, asked or "r", c)
     kernel, c = asked or points.kernel, points.c if c is None and asked is None else c
     if c is not None and kernel != "multiquadric":
         raise OptionError(f"--c belongs to the kernel multiquadric, not to {kernel}.")

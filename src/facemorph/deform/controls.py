@@ -14,12 +14,13 @@ from facemorph.core.emotion import PAPER_POLES, Pole, emotion_weights
 from facemorph.core.facs import Sides
 from facemorph.core.morph import Curve
 from facemorph.core.motion import Contribution, total
-from facemorph.core.pose import Pose, State, mixed_state
+from facemorph.core.pose import NEUTRAL, Pose, State, mixed_state
 from facemorph.core.rig import Rig
 from facemorph.deform.handles import BoundHandles, HandleSet
 from facemorph.deform.people import People, PeopleMix
 from facemorph.deform.regions import RegionControl, RegionSet
 from facemorph.deform.sides import SidedUnits
+from facemorph.errors import UnknownNameError
 
 METHODS = ("facs", "emotion", "people", "handles", "regions")
 
@@ -96,7 +97,10 @@ class BoundControls:
         self._kept: dict[str, tuple[object, Contribution]] = {}
 
     def __call__(self, pose: Pose, controls: Controls) -> Contribution:
-        """What all methods add to `pose`. Raises what the methods raise."""
+        """What all methods add to `pose`.
+
+        Raises what the methods raise, and `UnknownNameError` for a weight of a shape that the face lacks.
+        """
         makers: dict[str, tuple[object, Callable[[], Contribution]]] = {
             "facs": (controls.facs, lambda: self._sided(controls.facs)),
             "emotion": (controls.emotion, lambda: Contribution(controls.emotion.weights())),
@@ -112,8 +116,15 @@ class BoundControls:
     def _kept_or_made(self, method: str, setting: object, make: Callable[[], Contribution]) -> Contribution:
         kept = self._kept.get(method)
         if kept is None or kept[0] is not setting:
-            kept = self._kept[method] = (setting, make())
+            kept = self._kept[method] = (setting, self._checked(make()))
         return kept[1]
+
+    def _checked(self, contribution: Contribution) -> Contribution:
+        known = {NEUTRAL, *self.rig.names}
+        for name, weight in contribution.weights.items():
+            if weight != 0.0 and name not in known:
+                raise UnknownNameError("shape", name, (NEUTRAL, *self.rig.names))
+        return contribution
 
     def _sided(self, units: Mapping[int, Sides]) -> Contribution:
         if self._units is None:

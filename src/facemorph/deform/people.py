@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
+from facemorph.core.correctives import CORRECTIVE
 from facemorph.core.correspondence import difference
 from facemorph.core.facs import Sides
 from facemorph.core.rig import Rig
@@ -101,12 +102,14 @@ class People:
         return np.zeros(shape) if offsets is None else offsets.astype(np.float64)
 
     def _delta_difference(self, name: str, shape: str) -> Float32:
-        places = self._index[name]
-        if shape not in places:
-            raise UnknownNameError(f"shape of {name}", shape, places)
-        base = self._base.deltas[self._base.names.index(shape)]
-        difference_of_deltas: Float32 = self._rigs[name].deltas[places[shape]] - base
-        return difference_of_deltas
+        places, own = self._index[name], self._base.names.index(shape)
+        if shape in places:
+            difference_of_deltas: Float32 = self._rigs[name].deltas[places[shape]] - self._base.deltas[own]
+            return difference_of_deltas
+        # Whoever has no correctives moves straight: there is nothing of theirs to mix in.
+        if self._base.shapes[own].set == CORRECTIVE:
+            return -self._base.deltas[own]
+        raise UnknownNameError(f"shape of {name}", shape, places)
 
     def _rig(self, name: str) -> Rig:
         if name not in self._rigs:

@@ -65,13 +65,13 @@ class RbfField:
         exactly: bool = False,
     ) -> None:
         self.points = _checked_points(points)
-        centre, scale = self.points.mean(axis=0), _spread(self.points)
+        centre, scale = self.points.mean(axis=0), spread(self.points)
         local = (self.points - centre) / scale
         _refuse_coincident(local)
-        shape = _nearest_mean(local) if c is None else _checked_shape(c) / scale
+        shape = nearest_mean(local) if c is None else _checked_shape(c) / scale
         self.c = float(shape * scale)
-        kernel_of = _kernel(kernel, shape)
-        inverse = _inverted(_system(local, kernel_of))[:, : len(local)]
+        kernel_of = kernel_function(kernel, shape)
+        inverse = inverted(system_of(local, kernel_of))[:, : len(local)]
         surface = (positions.astype(np.float64) - centre) / scale
         dtype = np.float64 if exactly else np.float32
         self.matrix = _evaluated(surface, local, kernel_of, inverse, dtype)
@@ -86,7 +86,8 @@ class RbfField:
         return result
 
 
-def _kernel(kernel: Kernel, c: float) -> Callable[[Float64], Float64]:
+def kernel_function(kernel: Kernel, c: float) -> Callable[[Float64], Float64]:
+    """g(r) of a kernel over arrays of distances; `c` is the multiquadric's alone."""
     powers = {"r": 1, "r3": 3, "r5": 5}
     if kernel in powers:
         power = powers[kernel]
@@ -94,7 +95,7 @@ def _kernel(kernel: Kernel, c: float) -> Callable[[Float64], Float64]:
     return lambda r: np.sqrt(r * r + c * c)
 
 
-def _distances(a: Float64, b: Float64) -> Float64:
+def distances(a: Float64, b: Float64) -> Float64:
     """Distances between points a (m, 3) and b (n, 3), (m, n); by differences, so that equal points give 0."""
     squares = np.zeros((len(a), len(b)))
     apart = np.empty_like(squares)
@@ -105,17 +106,18 @@ def _distances(a: Float64, b: Float64) -> Float64:
     return np.sqrt(squares, out=squares)
 
 
-def _system(points: Float64, kernel_of: Callable[[Float64], Float64]) -> Float64:
+def system_of(points: Float64, kernel_of: Callable[[Float64], Float64]) -> Float64:
     """G of (2.14): [[g(|xi - xj|), 1 x y z], [its affine part transposed, 0]], (n + 4, n + 4)."""
     n = len(points)
     matrix = np.zeros((n + 4, n + 4))
-    matrix[:n, :n] = kernel_of(_distances(points, points))
+    matrix[:n, :n] = kernel_of(distances(points, points))
     matrix[:n, n:] = np.c_[np.ones(n), points]
     matrix[n:, :n] = matrix[:n, n:].T
     return matrix
 
 
-def _inverted(system: Float64) -> Float64:
+def inverted(system: Float64) -> Float64:
+    """G^-1. Raises `DeformError` where the condition number is beyond `SINGULAR`."""
     try:
         inverse = np.asarray(np.linalg.inv(system), np.float64)
         condition = float(np.linalg.norm(system, 1) * np.linalg.norm(inverse, 1))
@@ -140,7 +142,7 @@ def _evaluated(
     result: NDArray[np.float32 | np.float64] = np.empty((len(surface), len(points)), dtype)
     for start in range(0, len(surface), _CHUNK_ROWS):
         rows = surface[start : start + _CHUNK_ROWS]
-        values = kernel_of(_distances(rows, points)) @ inverse[:-4]
+        values = kernel_of(distances(rows, points)) @ inverse[:-4]
         values += rows @ inverse[-3:]
         values += inverse[-4]
         result[start : start + _CHUNK_ROWS] = values
@@ -160,24 +162,26 @@ def _checked_points(points: Float64) -> Float64:
     return points
 
 
-def _spread(points: Float64) -> float:
+def spread(points: Float64) -> float:
+    """Root mean square distance of points (n, 3) from their middle."""
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
 
 
 def _refuse_coincident(local: Float64) -> None:
-    distances = _distances(local, local)
-    np.fill_diagonal(distances, np.inf)
-    i, j = np.unravel_index(int(np.argmin(distances)), distances.shape)
-    if distances[i, j] < COINCIDENT:
+    apart = distances(local, local)
+    np.fill_diagonal(apart, np.inf)
+    i, j = np.unravel_index(int(np.argmin(apart)), apart.shape)
+    if apart[i, j] < COINCIDENT:
         raise DeformError(
             f"control points {min(i, j) + 1} and {max(i, j) + 1} are at one place; take one away."
         )
 
 
-def _nearest_mean(local: Float64) -> float:
-    distances = _distances(local, local)
-    np.fill_diagonal(distances, np.inf)
-    return float(distances.min(axis=1).mean())
+def nearest_mean(local: Float64) -> float:
+    """Mean distance of points (n, 3) to their nearest neighbour."""
+    apart = distances(local, local)
+    np.fill_diagonal(apart, np.inf)
+    return float(apart.min(axis=1).mean())
 
 
 def _checked_shape(c: float) -> float:

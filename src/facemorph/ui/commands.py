@@ -12,7 +12,7 @@ from pathlib import Path
 
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.morph import CURVES
-from facemorph.core.picture import SHADINGS
+from facemorph.core.picture import LIGHT_RIGS, SHADINGS
 from facemorph.core.pose import NEUTRAL, state_of
 from facemorph.core.rig import plain_label
 from facemorph.ui import actions, files
@@ -33,6 +33,12 @@ SHADING_WORDS = {
     "normals": "Normals",
     "heat": "Heat map",
 }
+LIGHT_WORDS = {"studio": "Studio light", "window": "Window light", "flat": "Flat light"}
+LIGHT_HELP = {
+    "studio": "A portrait's: a large key light, some of it from the other side, a rim from behind",
+    "window": "Large and soft, from one side",
+    "flat": "Even, from the front, the same for every skin, on a plain backdrop: for pictures in studies",
+}
 DIRECTION_WORDS = {
     "front": "Front",
     "three-quarter": "Three-quarter",
@@ -47,12 +53,29 @@ CURVE_HELP = {
 }
 
 
+_EXPORTED = "Pictures show it; meshes are exported as the file has them"
+SMOOTH_WORDS = {
+    "off": ("Smooth surface off", "The file's own polygons"),
+    "1": ("Smooth surface, level 1", f"Catmull-Clark once: four times the polygons. {_EXPORTED}"),
+    "2": ("Smooth surface, level 2", f"Catmull-Clark twice: sixteen times the polygons. {_EXPORTED}"),
+    "auto": ("Smooth surface automatically", "Level 1 where a graphics card's frames leave room for it"),
+}
+
+
 def _keys(text: str) -> tuple[Chord, ...]:
     return tuple(Chord.parse(part) for part in text.split())
 
 
 def _shading_is(shading: str, app: App) -> bool:
     return app.look.shading == shading
+
+
+def _smooth_is(smooth: str, app: App) -> bool:
+    return app.settings.smooth_surface == smooth
+
+
+def _light_is(light: str, app: App) -> bool:
+    return app.settings.light == light
 
 
 def _curve_is(curve: str, app: App) -> bool:
@@ -128,6 +151,9 @@ VIEW = (
     Command(SHADING_WORDS["heat"], actions.toggle_heat, "View", _keys("H"), 1, has_face,
             partial(_shading_is, "heat"),
             help="How far each point has moved from the neutral face; once more for the skin"),
+    *(Command(words, partial(actions.set_smooth, smooth=name), "View/Smooth surface", (), 0, has_face,
+              partial(_smooth_is, name), help=tip)
+      for name, (words, tip) in SMOOTH_WORDS.items()),
     Command("Wireframe over the face", actions.toggle_wire, "View", _keys("W"), 2, has_face,
             lambda app: app.look.wire),
     Command("Correctives", actions.toggle_correctives, "View", (), 2,
@@ -135,6 +161,8 @@ VIEW = (
             lambda app: app.rig is not None and bool(app.rig.correctives) and app.rig.corrected,
             help="Shapes between shapes that keep jaw, lids and eyes on their ways; off, every face is the "
                  "plain sum of its shapes"),
+    *(Command(LIGHT_WORDS[name], partial(actions.set_light, light=name), "View/Lights", (), 2, always,
+              partial(_light_is, name), help=LIGHT_HELP[name]) for name in LIGHT_RIGS),
     Command("Faces panel", actions.toggle_left, "View", (), 3, always,
             lambda app: app.settings.left_open and not app.panels_hidden),
     Command("Pages panel", actions.toggle_right, "View", (), 3, always,

@@ -8,14 +8,14 @@ from dataclasses import replace
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
-from facemorph.core.lengths import displacements
 from facemorph.core.morph import Curve, eased
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.core.scene import Scene
+from facemorph.deform.control_points import rebuilding_vertices
 from facemorph.deform.controls import METHODS, BoundControls, Controls
-from facemorph.deform.rebuild import control_vertices, rebuilt
+from facemorph.deform.rebuild import rebuilt
 from facemorph.errors import FacemorphError
 from facemorph.ui.actions import tell_error
 from facemorph.ui.lab import Paths
@@ -223,8 +223,8 @@ def _rebuilt_way(app: App, rig: Rig, pose: Pose) -> Float32:
     kept, way = page.rebuilt
     if way is None or kept != key:
         source, target = rig.positions(dict(pose.source)), rig.positions(state_of(goal))
-        moved = displacements(target, source)
-        result = rebuilt(rig, source, target, control_vertices(rig, REBUILD_POINTS, moved))
+        vertices = rebuilding_vertices(rig, source, target, REBUILD_POINTS)
+        result = rebuilt(rig, source, target, vertices)
         way = result.positions - source
         page.rebuilt = (key, way)
     return way

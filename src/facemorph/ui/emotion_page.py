@@ -37,7 +37,7 @@ class EmotionPage:
     recorder   takes down the cursor; None while nothing is recorded
     path       recorded last or opened; `player` runs along it, there and back where it loops
     wanted     the poles whose pictures the page shows; said anew every frame
-    pictures   pole's name -> texture, of the head `pictured`; filled by `PolePictures`
+    pictures   pole's name -> texture, of the head `pictured`; filled by `pole_pictures`
     """
 
     pad: Pad | None = None

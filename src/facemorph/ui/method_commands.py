@@ -44,25 +44,25 @@ FACS = (
 )  # fmt: skip
 
 HANDLES = (
-    Command("Handles: open points…", partial(actions.ask_for, purpose="open points"), "Edit/Handles",
+    Command("Handles: open points…", partial(actions.ask_for, purpose="open points"), "Expression/Handles",
             enabled=has_face, help="Points kept in a file, in place of those there are"),
-    Command("Handles: save points…", partial(actions.ask_for, purpose="save points"), "Edit/Handles",
+    Command("Handles: save points…", partial(actions.ask_for, purpose="save points"), "Expression/Handles",
             enabled=_has_points, help="Keep the points in a file (JSON)"),
-    Command("Handles: reset", handles.back_to_rest, "Edit/Handles", enabled=_has_moved_points,
+    Command("Handles: reset", handles.back_to_rest, "Expression/Handles", enabled=_has_moved_points,
             help="Every point back to where it rests; the points stay"),
-    Command("Handles: clear", handles.clear, "Edit/Handles", enabled=_has_points,
+    Command("Handles: clear", handles.clear, "Expression/Handles", enabled=_has_points,
             help="Take all points away"),
 )  # fmt: skip
 
 REGIONS = (
-    Command("Regions: open regions…", partial(actions.ask_for, purpose="open regions"), "Edit/Regions",
+    Command("Regions: open regions…", partial(actions.ask_for, purpose="open regions"), "Expression/Regions",
             enabled=has_face, help="Regions kept in a file, in place of those there are"),
-    Command("Regions: save regions…", partial(actions.ask_for, purpose="save regions"), "Edit/Regions",
+    Command("Regions: save regions…", partial(actions.ask_for, purpose="save regions"), "Expression/Regions",
             enabled=_has_regions, help="Keep the regions in a file (NPZ)"),
-    Command("Regions: reset", regions.reset, "Edit/Regions",
+    Command("Regions: reset", regions.reset, "Expression/Regions",
             enabled=lambda app: bool(app.controls.regions),
             help="Every region at rest; what was painted stays"),
-    Command("Regions: unpaint", partial(regions.use, chosen=None), "Edit/Regions",
+    Command("Regions: unpaint", partial(regions.use, chosen=None), "Expression/Regions",
             enabled=lambda app: app.painted is not None,
             help="The face's own regions again"),
 )  # fmt: skip

@@ -19,7 +19,7 @@ class PeoplePage:
     files     what was chosen from files, newest last: its paths -> what it is called in a mixture
     loading   who is being read now, "" for nobody
     wanted    the pictures that the page shows, by corner; said anew every frame
-    pictures  textures, filled by `CornerPictures`
+    pictures  textures, filled by `corner_pictures`
     """
 
     files: dict[tuple[str, ...], str] = field(default_factory=dict)

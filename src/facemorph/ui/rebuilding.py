@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64, Int32
-from facemorph.core.lengths import displacements
 from facemorph.core.pose import Pose, state_of
 from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Scene
-from facemorph.deform.rbf import KERNELS, Kernel
-from facemorph.deform.rebuild import Rebuilt, control_vertices, rebuilt
+from facemorph.deform.control_points import rebuilding_vertices
+from facemorph.deform.rbf import KERNELS, Kernel, nearest_mean
+from facemorph.deform.rebuild import Rebuilt, rebuilt
 from facemorph.errors import DeformError, FacemorphError
 from facemorph.ui.actions import tell_error
 from facemorph.ui.lab import Sweep
@@ -33,7 +33,7 @@ def refresh(app: App, rig: Rig) -> None:
     def work(progress: Progress) -> tuple[Rebuilt, Scene, tuple[int, ...]]:
         progress(0.0, "Choosing points")
         first, last = rig.positions(state_of(source)), rig.positions(state_of(target))
-        vertices = control_vertices(rig, count, displacements(last, first))
+        vertices = rebuilding_vertices(rig, first, last, count, kernel, c)
         progress(0.4, "Solving")
         result = rebuilt(rig, first, last, vertices, kernel, c)
         scene = Scene(Pose(), result.positions - rig.neutral.positions, reference=last)
@@ -74,17 +74,36 @@ def sweep(app: App, rig: Rig) -> None:
 def swept(rig: Rig, source: Float32, target: Float32, c: float | None, progress: Progress) -> Sweep:
     """Error and time for each kernel and count; not a number where a system cannot be solved."""
     counts = [count for count in COUNTS if count <= rig.neutral.vertex_count // 2]
-    moved = displacements(target, source)
     errors = {kernel: np.full(len(counts), np.nan) for kernel in KERNELS}
     times = {kernel: np.full(len(counts), np.nan) for kernel in KERNELS}
+    chosen = _chosen(rig, source, target, counts, c, progress)
     for place, count in enumerate(counts):
-        vertices = control_vertices(rig, count, moved)
         for number, kernel in enumerate(KERNELS):
             # The cost of a count grows with it, so progress goes by points and not by counts.
             before = sum(counts[:place]) + count * number / len(KERNELS)
             progress(before / sum(counts), f"{count} points, kernel {kernel}")
-            _measure(rig, source, target, vertices, kernel, c, place, errors, times)
+            _measure(rig, source, target, chosen[kernel][place], kernel, c, place, errors, times)
     return Sweep(np.array(counts, np.float64), errors, times)
+
+
+def _chosen(
+    rig: Rig, source: Float32, target: Float32, counts: list[int], c: float | None, progress: Progress
+) -> dict[Kernel, list[Int32]]:
+    """The points of each kernel and count. Fewer points are the first of more, as long as c is the same."""
+    chosen: dict[Kernel, list[Int32]] = {}
+    for kernel in KERNELS:
+        progress(0.0, f"Choosing points, kernel {kernel}")
+        if kernel != "multiquadric" or c is not None:
+            most = rebuilding_vertices(rig, source, target, counts[-1], kernel, c)
+            chosen[kernel] = [most[:count] for count in counts]
+            continue
+        # c as `rebuilding_vertices` takes it where none is given, without choosing those of r again.
+        own = [nearest_mean(source[points].astype(np.float64)) for points in chosen["r"]]
+        chosen[kernel] = []
+        for count, own_c in zip(counts, own, strict=True):
+            progress(0.0, f"Choosing {count} points, kernel {kernel}")
+            chosen[kernel].append(rebuilding_vertices(rig, source, target, count, kernel, own_c))
+    return chosen
 
 
 def _measure(

@@ -14,15 +14,17 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facemorph.core.camera import Camera
+from facemorph.core.picture import checked_light
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
-from facemorph.ui import actions, emotion, files, fonts, theme
+from facemorph.ui import actions, emotion_paths, files, fonts, theme
 from facemorph.ui.draw import draw_ui
-from facemorph.ui.emotion_pictures import PolePictures
+from facemorph.ui.emotion_pictures import pole_pictures
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
-from facemorph.ui.people_pictures import CornerPictures
+from facemorph.ui.people_pictures import corner_pictures
 from facemorph.ui.plots import release_plots
+from facemorph.ui.smoothing import Smoothing
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
@@ -44,8 +46,9 @@ class Session:
         self.split = SplitView(second or (lambda: _another(renderer)))
         self.renderer = renderer
         self.thumbnails = thumbnails
-        self.poles = PolePictures()
-        self.corners = CornerPictures()
+        self.poles = pole_pictures()
+        self.corners = corner_pictures()
+        self._smoothing = Smoothing()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
@@ -65,7 +68,7 @@ class Session:
         self._begin(scale)
         imgui.new_frame()
         draw_ui(app)
-        emotion.take_sample(app, self._last_secs)
+        emotion_paths.take_sample(app, self._last_secs)
         self._fulfil(app)
         self._draw_face(app)
         busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
@@ -105,7 +108,7 @@ class Session:
         self._take_arriving(app)
         if app.playback.playing:
             app.pose = replace(app.pose, t=app.playback.advanced(elapsed))
-        emotion.advance(app, elapsed)
+        emotion_paths.advance(app, elapsed)
         if app.turntable:
             app.camera = app.camera.orbited(elapsed * TURNTABLE_DEGREES_PER_SEC, 0.0)
         if self.thumbnails is not None:
@@ -117,7 +120,8 @@ class Session:
         if wanted != self._style:
             theme.apply(*wanted)
             self._style = wanted
-        app.look = replace(app.look, background=theme.THEMES[app.settings.theme].backdrop)
+        backdrop = theme.THEMES[app.settings.theme].backdrop
+        app.look = replace(app.look, background=backdrop, light=checked_light(app.settings.light))
 
     def _take_arriving(self, app: App) -> None:
         """Show the face that was loaded, if the renderer can; else keep the one there is."""
@@ -172,6 +176,7 @@ class Session:
         pictured = self.poles.step(app, self.renderer) or self.corners.step(app, self.renderer)
         if pictured:
             self._drawn = ()
+        self._smooth(app)
         view = app.views()[0]
         # While something moves, antialiasing is left out where OpenGL runs on the CPU: half the time a frame.
         playing = app.playback.playing or app.pages.emotion.player.playing
@@ -199,6 +204,12 @@ class Session:
         if app.on_face.split is not None:
             self._hurried |= self.split.draw(app, app.on_face.split, quality)
         self._save(app)
+
+    def _smooth(self, app: App) -> None:
+        level = self._smoothing.step(app, self.renderer.draw_secs)
+        if app.form is not None:
+            self.renderer.take(app.form)
+        app.look = replace(app.look, subdivision=level)
 
     def _legend(self, app: App) -> None:
         # The interface was built before the face was drawn, so a new legend takes one more frame.

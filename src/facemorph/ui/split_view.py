@@ -16,6 +16,7 @@ from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.core.scene import Scene
 from facemorph.gl.describe import Graphics
+from facemorph.gl.form import Form
 from facemorph.gl.heat import Legend
 from facemorph.ui.on_face import Split
 from facemorph.ui.state import App, Face, Viewport
@@ -35,6 +36,13 @@ class DrawsFaces(Protocol):
 
     def load(self, rig: Rig) -> None:
         """Take a rig."""
+
+    def take(self, form: Form) -> None:
+        """Take a refined surface of the rig, for when its level is drawn."""
+
+    @property
+    def draw_secs(self) -> float | None:
+        """What a graphics card lately took for a frame."""
 
     def draw(
         self,
@@ -104,6 +112,8 @@ class SplitView:
         if app.face is not None and self._loaded is not app.face:
             self.renderer.load(app.face.rig)
             self._loaded, self._drawn = app.face, ()
+        if app.form is not None:
+            self.renderer.take(app.form)
         return self.renderer
 
     def release(self) -> None:

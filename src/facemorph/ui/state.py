@@ -19,6 +19,7 @@ from facemorph.core.scene import Scene
 from facemorph.deform.controls import Controls
 from facemorph.deform.regions import RegionSet
 from facemorph.gl.describe import Graphics
+from facemorph.gl.form import Form
 from facemorph.gl.heat import Legend
 from facemorph.ui.history import History, Snapshot
 from facemorph.ui.jobs import Jobs
@@ -140,6 +141,7 @@ class App:
     lab: Lab = field(default_factory=Lab)
     camera: Camera = field(default_factory=Camera)
     look: Look = field(default_factory=Look)
+    form: Form | None = None  # the refined surface that the look's subdivision shows
     turntable: bool = False
     legend: Legend | None = None  # of the heat map as drawn last
     second_legend: Legend | None = None  # of the second view's, where the face is seen twice

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 from imgui_bundle import ImVec2, imgui
 
 from facemorph.ui.state import App
@@ -218,13 +221,24 @@ def chip_width(text: str) -> float:
     return float(imgui.calc_text_size(text).x + 2 * imgui.get_style().frame_padding.x)
 
 
-def tab_chips(app: App, choices: tuple[tuple[str, str], ...], chosen: str) -> str:
-    """A few words side by side of which one holds, each with its tooltip; gives the one that does."""
-    c, gap = colours(app), 2 * unit()
+def columns_of(words: Sequence[str], gap: float, most: int = 6) -> tuple[int, float]:
+    """In how many columns of equal width buttons with these words fit, and how wide each of them is."""
     room = imgui.get_content_region_avail().x
-    width = (room - gap * (len(choices) - 1)) / len(choices)
+    widest = max(chip_width(word) for word in words)
+    fitting = min(max(int((room + gap) // (widest + gap)), 1), len(words), most)
+    columns = math.ceil(len(words) / math.ceil(len(words) / fitting))
+    return columns, (room - gap * (columns - 1)) / columns
+
+
+def tab_chips(app: App, choices: tuple[tuple[str, str], ...], chosen: str) -> str:
+    """A few words side by side of which one holds, each with its tooltip; gives the one that does.
+
+    Where the words have too little room, they stand in more rows.
+    """
+    c, gap = colours(app), 2 * unit()
+    columns, width = columns_of([word for word, _ in choices], gap)
     for place, (word, tip) in enumerate(choices):
-        if place:
+        if place % columns:
             imgui.same_line(0, gap)
         lit = word == chosen
         imgui.push_style_color(imgui.Col_.button, c.field_hovered if lit else faded(c.field, 0.4))

@@ -8,7 +8,7 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import dialogs, emotion, files, fonts, handles, people, regions
+from facemorph.ui import dialogs, emotion_paths, files, fonts, handles, people, regions
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
@@ -176,9 +176,9 @@ def _take(app: App, purpose: str, paths: list[Path]) -> None:
     elif purpose == "save regions":
         regions.save(app, first)
     elif purpose == "open path":
-        emotion.open_path(app, first)
+        emotion_paths.open_path(app, first)
     elif purpose == "save path":
-        emotion.save_path(app, first)
+        emotion_paths.save_path(app, first)
     else:
         whole = len(paths) == 1 and first.name == "face.toml"
         source = [str(path) for path in ([first.parent] if whole else paths)]

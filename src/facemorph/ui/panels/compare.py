@@ -139,7 +139,7 @@ def _plots(app: App, made: Paths, what: str, *titles: tuple[str, str]) -> None:
     quiet_words(f"At t = {at:.2f}, {what}: {numbers}.")
     below = imgui.get_text_line_height_with_spacing()
     room = imgui.get_content_region_avail().y - below - 5 * imgui.get_style().item_spacing.y
-    height = min(max(room / 3, 124 * unit()), 240 * unit())
+    height = min(max(room / 3, 112 * unit()), 240 * unit())
     with aligned_plots("ways"):
         for (title, unit_name), values in zip(
             titles, (made.value, made.speed, made.acceleration), strict=True

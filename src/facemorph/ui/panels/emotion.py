@@ -6,7 +6,7 @@ from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.emotion import PAPER_POLES
 from facemorph.core.rig import Rig
-from facemorph.ui import actions, emotion, fonts
+from facemorph.ui import actions, emotion, emotion_paths, emotion_poles, fonts
 from facemorph.ui.emotion_page import FASTEST, SLOWEST
 from facemorph.ui.panels import emotion_pad
 from facemorph.ui.panels.rows import divider, method_head, quiet_words
@@ -98,6 +98,8 @@ def _place(app: App) -> None:
     imgui.same_line(0, 0)
     x = typed_number(app, "emotion x", control.x, -1.0, 1.0, number)
     imgui.same_line(0, 10 * scale)
+    if imgui.get_content_region_avail().x < word + number:
+        imgui.new_line()
     row_label(app, "Cy", word, _PLACE_TIP.format(axis="y"))
     imgui.same_line(0, 0)
     y = typed_number(app, "emotion y", control.y, -1.0, 1.0, number)
@@ -152,7 +154,7 @@ def _path(app: App) -> None:
     pressed = imgui.button(f"{words}###record", ImVec2(100 * scale, 0))
     imgui.pop_style_color()
     if pressed:
-        emotion.toggle_record(app)
+        emotion_paths.toggle_record(app)
     tooltip(
         "Take what was dragged as the path"
         if recording
@@ -163,12 +165,14 @@ def _path(app: App) -> None:
     playing = page.player.playing
     tip = "Pause" if playing else "Play the path in its own time"
     if icon_button(app, fonts.PAUSE if playing else fonts.PLAY, "play path", tip):
-        emotion.toggle_play(app)
+        emotion_paths.toggle_play(app)
     imgui.end_disabled()
     imgui.same_line(0, 2 * scale)
+    if imgui.get_content_region_avail().x < imgui.get_frame_height():
+        imgui.new_line()
     tip = "Loop: there and back again, so that the face never jumps"
     if icon_button(app, fonts.LOOP, "loop path", tip, lit=page.player.loop):
-        emotion.toggle_loop(app)
+        emotion_paths.toggle_loop(app)
     imgui.same_line(0, gap)
     if imgui.get_content_region_avail().x < 54 * scale:
         imgui.new_line()
@@ -185,7 +189,7 @@ def _path(app: App) -> None:
         ),
     )
     if chosen == "Clear":
-        emotion.clear_path(app)
+        emotion_paths.clear_path(app)
     elif chosen:
         actions.ask_for(app, "open path" if chosen == "Open…" else "save path")
 
@@ -220,19 +224,19 @@ def _poles(app: App, rig: Rig) -> None:
         if place % columns:
             imgui.same_line(0, gap)
         if _pole_button(app, shape.name, shape.label, width, standing):
-            emotion.toggle_pole(app, shape.name)
+            emotion_poles.toggle_pole(app, shape.name)
     chosen = button_row(
         app,
         (
             ("Paper's four", _PAPER_TIP, emotion.poles_of(app) != emotion.usual_poles(rig)),
-            ("Spread", "The same poles, evenly apart", not emotion.evenly_spread(app)),
-            ("All", "Every expression of the face", len(standing) < emotion.most_poles(rig)),
+            ("Spread", "The same poles, evenly apart", not emotion_poles.evenly_spread(app)),
+            ("All", "Every expression of the face", len(standing) < emotion_poles.most_poles(rig)),
         ),
     )
     if chosen == "Spread":
-        emotion.spread_evenly(app)
+        emotion_poles.spread_evenly(app)
     elif chosen:
-        (emotion.stand_everywhere if chosen == "All" else emotion.to_usual_poles)(app)
+        (emotion_poles.stand_everywhere if chosen == "All" else emotion_poles.to_usual_poles)(app)
 
 
 _PAPER_TIP = (
@@ -242,7 +246,7 @@ _PAPER_TIP = (
 
 def _pole_button(app: App, name: str, label: str, width: float, standing: set[str]) -> bool:
     c, lit = colours(app), name in standing
-    free = len(standing) > emotion.LEAST_POLES if lit else len(standing) < emotion.MOST_POLES
+    free = len(standing) > emotion.LEAST_POLES if lit else len(standing) < emotion_poles.MOST_POLES
     imgui.push_style_color(imgui.Col_.button, c.field_hovered if lit else c.panel)
     imgui.push_style_color(imgui.Col_.text, c.text if lit else c.dim)
     imgui.begin_disabled(not free)
@@ -251,7 +255,7 @@ def _pole_button(app: App, name: str, label: str, width: float, standing: set[st
     imgui.end_disabled()
     imgui.pop_style_color(2)
     if not free:
-        limit = f"At least {emotion.LEAST_POLES}" if lit else f"At most {emotion.MOST_POLES}"
+        limit = f"At least {emotion.LEAST_POLES}" if lit else f"At most {emotion_poles.MOST_POLES}"
         tooltip(f"{label}: {limit.lower()} poles stand round the circle")
     else:
         tooltip(f"{label}: {'takes it from the circle' if lit else 'puts it into the widest gap'}")

@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from facemorph.core.emotion import Pole
 from facemorph.core.emotion_path import thinned
 from facemorph.core.rig import Rig
-from facemorph.ui import emotion
+from facemorph.ui import emotion, emotion_poles
 from facemorph.ui.emotion_page import Pad
 from facemorph.ui.state import App
 from facemorph.ui.theme import Colours, Rgba, faded, packed
@@ -66,7 +66,7 @@ def _laid_out(app: App, rig: Rig, place: ImVec2, side: float) -> tuple[list[_Sea
     # The words stand on the outer rims of the pictures, which touch the circle.
     reach = side / 2.0 - size / 2.0 - 14.0 * scale
     pad = Pad(place.x + side / 2.0, place.y + side / 2.0, max(reach - size / 2.0 + 3.0 * scale, 1.0))
-    nearest = 2.0 * reach * math.sin(math.radians(min(emotion.gaps(poles)) / 2.0))
+    nearest = 2.0 * reach * math.sin(math.radians(min(emotion_poles.gaps(poles)) / 2.0))
     size = min(size, max(nearest * 0.95, 12.0 * scale))
     seats = []
     for pole in poles:
@@ -124,7 +124,7 @@ def _dragged(app: App, pad: Pad, mouse: ImVec2) -> None:
     far = math.hypot(mouse.x - page.pressed_at[0], mouse.y - page.pressed_at[1]) > _CLICK * unit()
     page.pole_moved = page.pole_moved or far
     if page.pole_moved:
-        emotion.move_pole(app, page.pole, math.degrees(math.atan2(y, x)))
+        emotion_poles.move_pole(app, page.pole, math.degrees(math.atan2(y, x)))
 
 
 def _accent(app: App, c: Colours) -> Rgba:

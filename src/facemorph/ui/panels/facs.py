@@ -14,6 +14,7 @@ from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import (
     colours,
+    columns_of,
     icon_button,
     row_label,
     slim_slider,
@@ -115,10 +116,10 @@ def _units(app: App, rig: Rig) -> None:
 
 
 def _prototypes(app: App) -> None:
-    room, gap = imgui.get_content_region_avail().x, 5 * unit()
-    width = (room - 2 * gap) / 3
+    gap = 5 * unit()
+    columns, width = columns_of([plain_label(emotion) for emotion in PROTOTYPES], gap, most=3)
     for place, emotion in enumerate(PROTOTYPES):
-        if place % 3:
+        if place % columns:
             imgui.same_line(0, gap)
         meant = prototype(emotion, units.available(app))
         lit = bool(meant) and app.controls.facs == meant

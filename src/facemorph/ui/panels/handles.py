@@ -16,7 +16,7 @@ from facemorph.ui.panels.kernels import kernel_rows
 from facemorph.ui.panels.rows import divider, method_head, quiet_words
 from facemorph.ui.panels.value_rows import Value, button_row, switch_row, unit_words, value_row
 from facemorph.ui.state import App
-from facemorph.ui.widgets import tab_chips, tooltip, unit
+from facemorph.ui.widgets import chip_width, tab_chips, tooltip, unit
 
 _SETS = (
     ("Set points", "A click on the face sets a point that can be dragged"),
@@ -122,12 +122,14 @@ _MOVED_TIP = "How far the point is moved: u of (2.13)"
 def _keep(app: App) -> None:
     page = app.lab.handles
     words = "Keep as shape"
-    width = imgui.calc_text_size(words).x + 2 * imgui.get_style().frame_padding.x
-    imgui.set_next_item_width(imgui.get_content_region_avail().x - width - 5 * unit())
+    room, beside = imgui.get_content_region_avail().x, chip_width(words) + 5 * unit()
+    narrow = room - beside < 90 * unit()
+    imgui.set_next_item_width(room if narrow else room - beside)
     _, page.name = imgui.input_text_with_hint("##shape name", "Name of a new shape", page.name)
-    imgui.same_line(0, 5 * unit())
+    if not narrow:
+        imgui.same_line(0, 5 * unit())
     imgui.begin_disabled(handles.at_rest(app))
-    if imgui.button(words):
+    if imgui.button(words, ImVec2(room if narrow else 0, 0)):
         handles.keep_as_shape(app, page.name)
     imgui.end_disabled()
     tooltip("Adds what the points do now to the face as a new shape; the points go back to rest")

@@ -11,11 +11,10 @@ from facemorph.ui.state import App
 from facemorph.ui.widgets import cut, tooltip, unit
 
 # Submenus hang in their menu before the commands of a group.
-_SUBMENUS = {
-    "File": (1, ("Open recent", "Built-in faces")),
-    "Edit": (1, ("Handles", "Regions")),
-    "Expression": (1, ("FACS units", "Emotion map", "People")),
-    "View": (4, ("Page",)),
+_SUBMENUS: dict[str, dict[int, tuple[str, ...]]] = {
+    "File": {1: ("Open recent", "Built-in faces")},
+    "Expression": {1: ("FACS units", "Emotion map", "People", "Handles", "Regions")},
+    "View": {3: ("Lights", "Smooth surface"), 4: ("Page",)},
 }
 
 
@@ -35,11 +34,10 @@ def draw(app: App, layout: Layout) -> None:
 def _menu(app: App, menu: str, table: tuple[Command, ...]) -> None:
     entries = [command for command in table if command.menu == menu]
     group = entries[0].group if entries else 0
-    before, submenus = _SUBMENUS.get(menu, (0, ()))
+    submenus = dict(_SUBMENUS.get(menu, {}))
     for place, command in enumerate(entries):
-        if submenus and command.group >= before:
-            _submenus(app, menu, submenus, table)
-            submenus = ()
+        for before in [before for before in submenus if command.group >= before]:
+            _submenus(app, menu, submenus.pop(before), table)
         if command.group != group:
             imgui.separator()
             group = command.group

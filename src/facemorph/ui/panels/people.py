@@ -163,8 +163,7 @@ def _buttons(app: App) -> None:
         (_SWAP, _SWAP_TIP, people.can_swap(app)),
         (_START, _START_TIP.format(name=people.called(app, OWN)), people.can_start_again(app)),
     )
-    rows = [(button,) for button in buttons] if _narrow() else [buttons]
-    pressed = "".join([button_row(app, row) for row in rows])
+    pressed = button_row(app, buttons)
     if pressed == _SWAP:
         people.swap(app)
     elif pressed == _START:

@@ -25,12 +25,13 @@ from facemorph.ui.panels.value_rows import (
 from facemorph.ui.regions_tool import BrushTool, PivotMark
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
-from facemorph.ui.widgets import colours, slim_slider, tab_chips, tooltip, typed_number, unit
+from facemorph.ui.widgets import colours, cut, slim_slider, tab_chips, tooltip, typed_number, unit
 
 _T_TIP = "t of this region alone: P = (1 - t) source + t target (2.5), weighted by the region's soft border"
 _FROM_TIP = "Where the region starts: what it adds at t = 0"
 _TO_TIP = "Where the region goes: what it adds at t = 1"
 _MIXTURE = "Mixture"
+_WAY_IN_A_LINE = 210.0
 
 
 def moves_face(app: App) -> bool:
@@ -118,7 +119,7 @@ def _region(app: App, rig: Rig, name: str) -> None:
 def _t_row(app: App, name: str, t: float, tip: str, *, opens: bool = False) -> float:
     """Name, slider, number; a click on the name opens the region."""
     page, scale, room = app.lab.regions, unit(), imgui.get_content_region_avail().x
-    label, number = min(92 * scale, room * 0.4), 48 * scale
+    label, number = min(92 * scale, max(room * 0.4, 68 * scale)), 48 * scale
     place, height, c = imgui.get_cursor_screen_pos(), imgui.get_frame_height(), colours(app)
     pressed = imgui.invisible_button(f"{name} name", ImVec2(label, height))
     tooltip(f"{tip}\nClick for turn, size and shift" if opens else tip)
@@ -135,7 +136,7 @@ def _t_row(app: App, name: str, t: float, tip: str, *, opens: bool = False) -> f
         if pressed:
             page.opened = "" if page.opened == name else name
     ink = c.text if t or not opens else c.dim
-    paint.add_text((place.x + indent, text_y), packed(ink), plain_label(name))
+    paint.add_text((place.x + indent, text_y), packed(ink), cut(plain_label(name), label - indent))
     imgui.same_line(0, 0)
     new = slim_slider(app, f"region {name}", t, 0.0, 1.0, room - label - number)
     imgui.same_line(0, 0)
@@ -143,12 +144,12 @@ def _t_row(app: App, name: str, t: float, tip: str, *, opens: bool = False) -> f
 
 
 def _way_row(app: App, rig: Rig, name: str, way: tuple[str, ...]) -> tuple[str, ...]:
-    """From, to and curve in a line; gives what they leave."""
+    """From, to and curve in a line, or each in its own where there is little room; gives what they leave."""
     gap, indent, words = 4 * unit(), 18 * unit(), expression_words(rig)
     curves: dict[str, str] = {curve: curve.capitalize() for curve in CURVES}
     imgui.indent(indent)
     room = imgui.get_content_region_avail().x - 2 * gap
-    chosen = []
+    narrow, chosen = room < _WAY_IN_A_LINE * unit(), []
     for place, (key, choices, tip, share) in enumerate(
         (
             ("from", words, _FROM_TIP, 0.36),
@@ -156,10 +157,10 @@ def _way_row(app: App, rig: Rig, name: str, way: tuple[str, ...]) -> tuple[str, 
             ("curve", curves, "How t eases: linear (2.5) or cosine (2.1)", 0.28),
         )
     ):
-        if place:
+        if place and not narrow:
             imgui.same_line(0, gap)
         shown = choices if way[place] else {**choices, "": _MIXTURE}
-        chosen.append(choice(app, f"{name} {key}", way[place], shown, tip, room * share))
+        chosen.append(choice(app, f"{name} {key}", way[place], shown, tip, 0.0 if narrow else room * share))
     imgui.unindent(indent)
     return tuple(chosen)
 

@@ -11,6 +11,7 @@ from facemorph.ui import actions
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import (
+    chip_width,
     colours,
     icon_button,
     right_edge,
@@ -27,7 +28,7 @@ WIDE_TIP = (
     "Let weights go below 0 and above 1: exaggerates a shape or runs it backwards; "
     "the face may fold through itself"
 )
-_NUMBER, _TAG = 48.0, 26.0
+_NUMBER, _TAG, _LEAST_SLIDER = 48.0, 26.0, 32.0
 
 
 @dataclass(frozen=True)
@@ -53,14 +54,19 @@ def head(app: App, line: Head) -> tuple[bool, bool]:
     imgui.same_line()
     on = switch(app, f"{line.title} on", line.on)
     tooltip(line.switch_tip)
-    width = imgui.calc_text_size(line.reset).x + 2 * imgui.get_style().frame_padding.x
-    if line.wide:
-        imgui.same_line(right - width - imgui.get_frame_height() - 6 * unit())
+    square = imgui.get_frame_height() + 6 * unit() if line.wide else 0.0
+    # Where there is little room, the first word says it too.
+    imgui.same_line()
+    whole = imgui.get_content_region_avail().x >= chip_width(line.reset) + square
+    words = line.reset if whole else line.reset.split()[0]
+    width = chip_width(words)
+    if line.wide and imgui.get_content_region_avail().x >= width + square:
+        imgui.same_line(right - width - square)
         if icon_button(app, "±", "wide", WIDE_TIP, lit=app.settings.wide_weights):
             actions.toggle_wide(app)
     imgui.same_line(right - width)
     imgui.begin_disabled(not line.resettable)
-    reset = bool(imgui.button(line.reset))
+    reset = bool(imgui.button(words))
     tooltip(line.reset_tip)
     imgui.end_disabled()
     imgui.end_disabled()
@@ -110,12 +116,15 @@ def weight_row(app: App, row: Row) -> float:
     place = imgui.get_cursor_screen_pos()
     number, tag = _NUMBER * scale, _TAG * scale if row.tag else 0.0
     label = max((room - number - tag) * (0.6 if row.tag else 0.47), 60 * scale)
+    if row.tag and room - number - tag - label < _LEAST_SLIDER * scale:
+        # The tag and the tooltip name it still.
+        label = 6 * scale
     imgui.indent(6 * scale)
     if row.tag:
         row_label(app, row.tag, tag, row.tip, bright=False)
         imgui.same_line(0, 0)
     tip = f"{row.tip}\nDrag, double-click to type, right-click to reset"
-    row_label(app, row.label, label - 6 * scale, tip, bright=weight != 0.0)
+    row_label(app, row.label if label > 6 * scale else "", label - 6 * scale, tip, bright=weight != 0.0)
     reset = imgui.is_item_clicked(1)
     imgui.same_line(0, 4 * scale)
     new = slim_slider(app, row.key, weight, low, high, room - tag - label - number - 6 * scale)

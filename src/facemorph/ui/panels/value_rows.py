@@ -10,7 +10,16 @@ from imgui_bundle import imgui
 from facemorph.core.pose import NEUTRAL
 from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.ui.state import App
-from facemorph.ui.widgets import right_edge, row_label, slim_slider, switch, tooltip, typed_number, unit
+from facemorph.ui.widgets import (
+    columns_of,
+    right_edge,
+    row_label,
+    slim_slider,
+    switch,
+    tooltip,
+    typed_number,
+    unit,
+)
 from facemorph.ui.words import NEUTRAL_LABEL
 
 _LABEL, _NUMBER = 0.34, 54.0
@@ -89,12 +98,14 @@ def unit_words(rig: Rig) -> str:
 
 
 def button_row(app: App, buttons: tuple[tuple[str, str, bool], ...]) -> str:
-    """Buttons of equal width: words, tooltip, whether they can be pressed. Gives the one that was."""
-    gap = 5 * unit()
-    width = (imgui.get_content_region_avail().x - gap * (len(buttons) - 1)) / len(buttons)
-    pressed = ""
+    """Buttons of equal width: words, tooltip, whether they can be pressed. Gives the one that was.
+
+    Where the words have too little room, they stand in more rows.
+    """
+    gap, pressed = 5 * unit(), ""
+    columns, width = columns_of([words for words, _, _ in buttons], gap)
     for place, (words, tip, usable) in enumerate(buttons):
-        if place:
+        if place % columns:
             imgui.same_line(0, gap)
         imgui.begin_disabled(not usable)
         if imgui.button(words, (width, 0)):

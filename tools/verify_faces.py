@@ -141,7 +141,7 @@ def check_description(folder: Path, report: Report, vertices: int) -> list:
 
 
 def check_skin_maps(folder: Path, report: Report, wrinkles: list):
-    """The skin's further pictures are there and small; each wrinkle lies in the picture and shows in a shape."""
+    """The skin's further pictures are small; each wrinkle lies in them and follows shapes that there are."""
     paths = [folder / name for name in SKIN_MAPS]
     missing = [path.name for path in paths if not path.is_file()]
     report.require(not missing, f"{folder}: {missing} are missing")

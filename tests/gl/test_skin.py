@@ -184,3 +184,16 @@ def test_a_sphere_bends_as_its_radius_says_whatever_its_unit() -> None:
         found = bends((ball.vertices * scale).astype(np.float32), ball.faces.astype(np.int32))
         assert found == pytest.approx(np.full(len(found), 1 / 15), rel=0.03)
     assert not bends(np.zeros((3, 3), np.float32), np.array([[0, 1, 2]], np.int32)).any()
+
+
+@pytest.mark.parametrize("lit", [["LIT"], ["LIT", "LIT_BY_VERTEX"]])
+@pytest.mark.parametrize("maps", [[], ["RELIEF"], ["WRINKLES"], ["RELIEF", "ROUGHNESS", "WRINKLES"]])
+def test_every_kind_of_skin_compiles(ctx: moderngl.Context, lit: list[str], maps: list[str]) -> None:
+    programs = Programs(ctx)
+    others = ["PARTNERS 2", "PARTNER0_TEXTURED", "PARTNER1_TEXTURED", "PARTNER1_UV", "CUTOUT", "GLOW", "HEM"]
+    for more in ([], ["GLOW"], ["HEM"], others):
+        programs.get("face.vert", "skin.frag", define=[*lit, "SKIN", "TEXTURED", *maps, *more])
+    if not maps:
+        for plain in ([], ["COLOURED"]):
+            programs.get("face.vert", "skin.frag", define=[*lit, "SKIN", *plain])
+    programs.release()

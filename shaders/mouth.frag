@@ -39,7 +39,7 @@ vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
     vec3 around = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
     float fill = 0.5 + 0.5 * dot(n, fill_direction);
     around += fill_light * (fill * fill);
-    vec3 key = key_light * max((dot(n, key_direction) + wrap) / (1.0 + wrap), 0.0);
+    vec3 key = key_light * key_on(n);
     // The key is a wide lamp: half of it comes in wherever the surface sees the opening.
     float keyed = mix(reached.x, reached.y, 0.5) * min(2.0 * reached.x, 1.0);
     vec3 light = around * reached.x + key * keyed;

@@ -3,6 +3,7 @@
 
 uniform vec3 key_direction;
 uniform vec3 key_light;
+uniform float key_softness;             // 0 for a small lamp, to 1 for a wall of light
 uniform vec3 fill_direction;
 uniform vec3 fill_light;
 uniform vec3 rim_direction;
@@ -24,10 +25,17 @@ vec3 towards_camera(vec3 position) {
     return normalize(camera_position - position);
 }
 
+// How much of the key arrives: a wide lamp reaches past the terminator, and so does light within skin.
+vec3 key_on(vec3 n) {
+    vec3 past = wrap + key_softness;
+    vec3 reached = max((dot(n, key_direction) + past) / (1.0 + past), 0.0);
+    return mix(reached, reached * reached, 0.5 * key_softness);
+}
+
 // What arrives at a surface in the open.
 vec3 open_light(vec3 n) {
     vec3 light = mix(floor_light, sky_light, 0.5 + 0.5 * n.y);
-    light += key_light * max((dot(n, key_direction) + wrap) / (1.0 + wrap), 0.0);
+    light += key_light * key_on(n);
     float fill = 0.5 + 0.5 * dot(n, fill_direction);
     return light + fill_light * (fill * fill);
 }

@@ -27,7 +27,8 @@ vec3 light_in_skin(vec3 n, vec3 v, vec3 slope, float bend) {
     vec3 soft = softness(bend);
     float up = n.y - slope.y * FIRMNESS.g;
     vec3 light = mix(floor_light, sky_light, 0.5 + 0.5 * up);
-    light += key_light * blurred(dot(n, key_direction) - dot(slope, key_direction) * FIRMNESS, soft);
+    vec3 shade = soft + key_softness;
+    light += key_light * blurred(dot(n, key_direction) - dot(slope, key_direction) * FIRMNESS, shade);
     vec3 fill = clamp(0.5 + 0.5 * (dot(n, fill_direction) - dot(slope, fill_direction) * FIRMNESS), 0.0, 1.0);
     light += fill_light * (fill * fill);
     // Light from behind comes round the edge, and through what is thin.
@@ -49,6 +50,8 @@ float lobe(float cosine, float rough) {
 
 // Two lobes, one wide and one of the thin film of oil, at this cosine between normal and half-way vector.
 float lobes(float cosine, float rough) {
+    // A wide lamp is mirrored wide and dim.
+    rough = min(rough + 0.25 * key_softness, 1.0);
     return 0.7 * lobe(cosine, min(1.25 * rough, 1.0)) + 0.3 * lobe(cosine, 0.72 * rough);
 }
 

@@ -93,6 +93,22 @@ def test_render_writes_a_picture_of_the_asked_size_and_the_same_one_again(folder
     assert one.read_bytes() == two.read_bytes()
 
 
+def test_the_light_and_the_luminance_are_seen_in_the_picture(folder, tmp_path):
+    def drawn(*options: str) -> np.ndarray:
+        out = tmp_path / "out.png"
+        assert main(["render", str(folder), "--size", "100x100", *options, "-o", str(out)]) == 0
+        with Image.open(out) as picture:
+            return np.asarray(picture)
+
+    studio, flat = drawn(), drawn("--light", "flat")
+    assert flat[2, 2].tolist() == [128, 128, 128, 255]
+    assert not np.array_equal(studio, flat)
+    bright = drawn("--light", "flat", "--equal-luminance", "0.6").astype(int)
+    dim = drawn("--light", "flat", "--equal-luminance", "0.1").astype(int)
+    assert bright[2, 2].tolist() == dim[2, 2].tolist(), "the backdrop has its own"
+    assert bright.sum() > dim.sum() * 1.1
+
+
 def test_a_transparent_background_leaves_the_corners_clear(folder, tmp_path):
     out = tmp_path / "x.png"
     assert (
@@ -139,6 +155,11 @@ def test_check_tells_a_sound_folder_from_a_broken_one(capsys, folder):
         (["render", "FOLDER", "--size", "huge", "-o", "x.png"], "1280x800"),
         (["render", "FOLDER", "--shading", "toon", "-o", "x.png"], "clay"),
         (["render", "FOLDER", "--background", "red", "-o", "x.png"], "RRGGBB"),
+        (["render", "FOLDER", "--light", "candle", "-o", "x.png"], "studio, window, flat"),
+        (["render", "FOLDER", "--equal-luminance", "bright", "-o", "x.png"], "'bright'"),
+        (["render", "FOLDER", "--equal-luminance", "1.5", "-o", "x.png"], "0.02 to 0.7"),
+        (["render", "FOLDER", "--equal-luminance", "--shading", "heat", "-o", "x.png"], "knows no light"),
+        (["render", "FOLDER", "--per-picture", "-o", "x.png"], "--equal-luminance"),
         (["render", "FOLDER", "-o", "neutral.obj/x.png"], "neutral.obj"),
         (["export", "FOLDER", "-o", "x.ply"], ".obj"),
         (["check", "no/such/folder"], "no/such/folder"),

@@ -203,6 +203,7 @@ def test_a_broken_settings_file_is_kept_aside_and_the_start_goes_on(tmp_path: Pa
         ("left_width", -(10**400)),
         ("right_width", float("inf")),
         ("theme", "pink"),
+        ("light", "candle"),
         ("recent", [[]]),
         ("recent", [["a"], [3]]),
         ("left_width", float("nan")),

@@ -224,6 +224,18 @@ def test_every_command_of_the_table_runs(window: Offscreen, tmp_path: Path) -> N
     window.until(lambda: not app.jobs.running)
 
 
+def test_the_light_is_chosen_in_the_menu_and_kept(window: Offscreen) -> None:
+    app = window.app
+    assert app.look.light == app.settings.light == "studio"
+    before = window.pixels_now().astype(int)
+    window.run("Flat light")
+    assert app.look.light == app.settings.light == "flat"
+    chosen = [c.title for c in commands(app) if c.menu == "View/Lights" and c.checked and c.checked(app)]
+    assert chosen == ["Flat light"]
+    face = np.abs(window.pixels_now().astype(int) - before)[300:500, 400:800]
+    assert face.max() > 20, "the face is drawn in it"
+
+
 def test_every_command_has_a_place_and_no_two_share_a_key(window: Offscreen) -> None:
     table = commands(window.app)
     keys = [chord for command in table for chord in command.keys]

@@ -12,7 +12,7 @@ from facemorph import __version__
 from facemorph.cli import verbs
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.morph import CURVES
-from facemorph.core.picture import SHADINGS
+from facemorph.core.picture import LIGHT_RIGS, LUMINANCE, SHADINGS
 from facemorph.deform.rbf import KERNELS
 from facemorph.errors import OptionError
 from facemorph.resources import builtin_faces
@@ -138,14 +138,37 @@ def _render(parser: Parser) -> None:
     parser.add_argument(
         "--shading", default="skin", metavar="NAME", help=f"{', '.join(SHADINGS)} (default: skin)"
     )
+    _setting_options(parser)
     parser.add_argument(
         "--subdivision",
         default="0",
         metavar="N",
         help="smooth the surface by N levels of Catmull-Clark, 0 to 2 (default: 0, just as the file has it)",
     )
-    parser.add_argument("--background", metavar="COLOUR", help="RRGGBB in hexadecimal, or transparent")
     _output_option(parser, "PNG")
+
+
+def _setting_options(parser: Parser) -> None:
+    parser.add_argument(
+        "--light", default="studio", metavar="NAME", help=f"{', '.join(LIGHT_RIGS)} (default: studio)"
+    )
+    parser.add_argument(
+        "--background",
+        metavar="COLOUR",
+        help="RRGGBB in hexadecimal, or transparent (default: dark; the light flat: mid grey)",
+    )
+    parser.add_argument(
+        "--equal-luminance",
+        dest="luminance",
+        nargs="?",
+        const=str(LUMINANCE),
+        metavar="Y",
+        help="expose so that the skin's mean luminance is this part of white's, for every face alike "
+        f"(default: {LUMINANCE}); a face's expressions are exposed as its neutral is",
+    )
+    parser.add_argument(
+        "--per-picture", action="store_true", help="with --equal-luminance: expose each expression by itself"
+    )
 
 
 def _export(parser: Parser) -> None:

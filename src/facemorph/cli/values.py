@@ -9,8 +9,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from facemorph.core.morph import checked_curve
-from facemorph.core.picture import Look, checked_shading, checked_subdivision
-from facemorph.core.pose import NEUTRAL, Pose, parsed_weight, state_of
+from facemorph.core.picture import (
+    Look,
+    checked_light,
+    checked_luminance,
+    checked_shading,
+    checked_subdivision,
+)
+from facemorph.core.pose import NEUTRAL, Pose, parsed_number, parsed_weight, state_of
 from facemorph.core.rig import Rig
 from facemorph.errors import OptionError
 
@@ -47,11 +53,19 @@ def weights_from(words: Sequence[str]) -> dict[str, float]:
 
 
 def look_from(options: argparse.Namespace) -> Look:
-    """The look of --shading, --subdivision and --background."""
-    look = Look(checked_shading(options.shading), subdivision=checked_subdivision(options.subdivision))
-    if options.background is None:
+    """The look of --shading, --subdivision and what stands round the face."""
+    look = Look(
+        checked_shading(options.shading),
+        background=None if options.background is None else background_colour(options.background),
+        subdivision=checked_subdivision(options.subdivision),
+        light=checked_light(options.light),
+    )
+    if options.luminance is None:
+        if options.per_picture:
+            raise OptionError("--per-picture says what --equal-luminance holds for; give that too.")
         return look
-    return replace(look, background=background_colour(options.background))
+    luminance = checked_luminance(parsed_number(options.luminance, "--equal-luminance"))
+    return replace(look, luminance=luminance, luminance_of="picture" if options.per_picture else "face")
 
 
 def background_colour(text: str) -> tuple[float, float, float, float]:

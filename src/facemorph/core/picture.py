@@ -1,37 +1,66 @@
-"""What a picture shows, apart from the face and its pose: shading, size, backdrop, the heat map's range."""
+"""What a picture shows, apart from the face and its pose: shading, light, backdrop, size, heat range."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from facemorph.errors import OptionError
+from facemorph.errors import OptionError, UnknownNameError
 
 Shading = Literal["skin", "clay", "wire", "normals", "heat"]
 SHADINGS: tuple[Shading, ...] = get_args(Shading)
+LightRig = Literal["studio", "window", "flat"]
+LIGHT_RIGS: tuple[LightRig, ...] = get_args(LightRig)
+LuminanceOf = Literal["face", "picture"]
+Rgba = tuple[float, float, float, float]
 LARGEST_SIDE = 8192
 SUBDIVISIONS = (0, 1, 2)
 # What textures may be; Pillow would hand others, such as EPS, to other programs.
 PICTURE_FORMATS = ("PNG", "JPEG", "BMP", "TGA", "TIFF", "WEBP")
+DUSK: Rgba = (0.16, 0.17, 0.19, 1.0)
+MID_GREY: Rgba = (128 / 255, 128 / 255, 128 / 255, 1.0)
+# The luminance that pictures are brought to where none is named; all the built-in faces reach it.
+LUMINANCE = 0.25
+LEAST_LUMINANCE, MOST_LUMINANCE = 0.02, 0.7
 
 
 @dataclass(frozen=True)
 class Look:
     """How a face is drawn.
 
-    shading      skin (textured), clay (one grey), wire (clay with the polygons' edges), normals, heat
-                 (distance of each vertex from neutral)
-    wire         the polygons' edges over any shading
-    background   sRGB 0..1, with alpha; alpha 0 leaves the picture transparent there
-    heat_max     distance at the heat map's red end in model units; None takes the largest in the pose
-    subdivision  levels of Catmull-Clark that the surface is refined by, 0 to 2; 0 draws the file's own
+    shading       skin (textured), clay (one grey), wire (clay with the polygons' edges), normals, heat
+                  (distance of each vertex from neutral)
+    wire          the polygons' edges over any shading
+    background    sRGB 0..1, with alpha; alpha 0 leaves the picture transparent there. None is the light's
+                  own: mid grey for flat, dusk for others
+    heat_max      distance at the heat map's red end in model units; None takes the largest in the pose
+    subdivision   levels of Catmull-Clark that the surface is refined by, 0 to 2; 0 draws the file's own
+    light         studio (key, fill and rim of a portrait), window (large and soft, from one side), flat
+                  (even, from the front, the same for every skin, a plain backdrop: for stimuli)
+    exposure      factor on all light
+    luminance     where it is set, `exposure` is settled so that the mean luminance of the skin's pixels
+                  is this: CIE Y of the picture's sRGB made linear, 1 for white. For skin and clay only
+    luminance_of  "face": the neutral face has that luminance, its expressions the same exposure;
+                  "picture": each picture has it
     """
 
     shading: Shading = "skin"
     wire: bool = False
-    background: tuple[float, float, float, float] = (0.16, 0.17, 0.19, 1.0)
+    background: Rgba | None = None
     heat_max: float | None = None
     subdivision: int = 0
+    light: LightRig = "studio"
+    exposure: float = 1.0
+    luminance: float | None = None
+    luminance_of: LuminanceOf = "face"
+
+    @property
+    def backdrop(self) -> Rgba:
+        """The colour behind the face: the one asked for, or the light's own."""
+        if self.background is not None:
+            return self.background
+        return MID_GREY if self.light == "flat" else DUSK
 
 
 def checked_shading(name: str) -> Shading:
@@ -40,6 +69,23 @@ def checked_shading(name: str) -> Shading:
         if name == shading:
             return shading
     raise OptionError(f"no shading is called {name!r}. There are: {', '.join(SHADINGS)}.")
+
+
+def checked_light(name: str) -> LightRig:
+    """`name` as a `LightRig`. Raises `UnknownNameError` naming the choices."""
+    for light in LIGHT_RIGS:
+        if name == light:
+            return light
+    raise UnknownNameError("light", name, LIGHT_RIGS)
+
+
+def checked_luminance(luminance: float) -> float:
+    """`luminance` if a face can be brought to it. Raises `OptionError`."""
+    if not (math.isfinite(luminance) and LEAST_LUMINANCE <= luminance <= MOST_LUMINANCE):
+        raise OptionError(
+            f"equal luminance is a part of white's, {LEAST_LUMINANCE} to {MOST_LUMINANCE}; not {luminance:g}."
+        )
+    return luminance
 
 
 def checked_subdivision(level: int | str) -> int:

@@ -91,3 +91,12 @@ def encoded(linear: float) -> float:
 def blended_opacity(materials: Sequence[Material], shares: Sequence[float]) -> float:
     """The opacity of a part whose `materials`, own and partners', have these shares: 1 where all have 1."""
     return 1.0 - sum(share * (1.0 - m.opacity) for share, m in zip(shares, materials, strict=True))
+
+
+def stencil_of(material: Material, mesh: Mesh, textures: Textures) -> list[str]:
+    """What shadings without a material's colours define to leave out what its texture leaves out; bound."""
+    own = source_of(material, mesh, textures)
+    if own.texture is None or not own.cut_out:
+        return []
+    own.texture.use(STENCIL_UNIT)
+    return ["STENCILLED"]

@@ -10,7 +10,7 @@ from facemorph.core.arrays import Bool, Float32, Int32
 from facemorph.core.mesh import Mesh
 
 LOW_PART = 0.25  # of the height: a cut that reaches higher is the rim of a mask, not of a bust
-FADE = 0.11  # of the height: how long the fade is
+FADE = 0.15  # of the height: how long the fade is
 WIDE_ENOUGH = 0.3  # of the box's width: smaller holes are no cut through a neck or chest
 _MOST_RIM_POINTS = 400
 

@@ -1,4 +1,4 @@
-"""Where the lights stand: a portrait's three, following the camera, so that every side is readable."""
+"""A rig of lights: what stands where around a face; it follows the camera, so every side is readable."""
 
 from __future__ import annotations
 
@@ -20,39 +20,50 @@ LAG_DEG = 18.0
 class Lights:
     """Intensities (linear RGB) of the lights, and azimuth and elevation in degrees from the camera.
 
-    `catch_from` is where eyes see the key: lower than it is, or the upper lid would hide the highlight.
+    key_softness  how wide the key is: 0 a small lamp, 1 a wall of light whose shade has no edge
+    catch_from    where eyes see the key: lower than it is, or the upper lid would hide the highlight
+    adapts        whether the lights are stronger for dark skin, as a photographer opens the lens for it
+    backdrop      how much depth the backdrop has: 0 plain, without any shadow, to 1
+    lag_deg       of the lights behind the camera
     """
 
-    key: Light = (1.80, 1.68, 1.54)
-    key_from: tuple[float, float] = (-46.0, 38.0)
-    fill: Light = (0.22, 0.255, 0.31)
-    fill_from: tuple[float, float] = (48.0, 6.0)
-    catch_from: tuple[float, float] = (-27.0, 15.0)
-    rim: Light = (2.3, 2.4, 2.6)
-    rim_from: tuple[float, float] = (150.0, 35.0)
-    sky: Light = (0.20, 0.22, 0.26)
-    floor: Light = (0.11, 0.088, 0.08)
+    key: Light
+    key_from: tuple[float, float]
+    fill: Light
+    fill_from: tuple[float, float]
+    catch_from: tuple[float, float]
+    rim: Light
+    rim_from: tuple[float, float]
+    sky: Light
+    floor: Light
+    key_softness: float = 0.0
+    adapts: bool = True
+    backdrop: float = 1.0
+    lag_deg: float = LAG_DEG
 
-    def uniforms(self, camera: Camera) -> dict[str, Light]:
+    def uniforms(self, camera: Camera, exposure: float = 1.0) -> dict[str, object]:
         """Values for `shaders/lib/light.glsl` as seen by `camera`; directions in the model's space."""
-        return {
-            "key_direction": _direction(camera, *self.key_from),
+        colours = {
             "key_light": self.key,
-            "catch_direction": _direction(camera, *self.catch_from),
-            "fill_direction": _direction(camera, *self.fill_from),
             "fill_light": self.fill,
-            "rim_direction": _direction(camera, *self.rim_from),
             "rim_light": self.rim,
             "sky_light": self.sky,
             "floor_light": self.floor,
         }
+        return {
+            "key_direction": self._direction(camera, *self.key_from),
+            "catch_direction": self._direction(camera, *self.catch_from),
+            "fill_direction": self._direction(camera, *self.fill_from),
+            "rim_direction": self._direction(camera, *self.rim_from),
+            "key_softness": self.key_softness,
+            **{name: tuple(part * exposure for part in colour) for name, colour in colours.items()},
+        }
 
-
-def _direction(camera: Camera, azimuth_deg: float, elevation_deg: float) -> Light:
-    """Unit vector towards a light that stands so from the camera."""
-    # By the sine the lag is gone at the back again, so a full turn ends where it began.
-    lag = LAG_DEG * math.sin(math.radians(camera.azimuth_deg))
-    a = math.radians(camera.azimuth_deg - lag + azimuth_deg)
-    e = math.radians(camera.elevation_deg * 0.5 + elevation_deg)
-    vector: Float64 = np.array([math.sin(a) * math.cos(e), math.sin(e), math.cos(a) * math.cos(e)])
-    return float(vector[0]), float(vector[1]), float(vector[2])
+    def _direction(self, camera: Camera, azimuth_deg: float, elevation_deg: float) -> Light:
+        """Unit vector towards a light that stands so from the camera."""
+        # By the sine the lag is gone at the back again, so a full turn ends where it began.
+        lag = self.lag_deg * math.sin(math.radians(camera.azimuth_deg))
+        a = math.radians(camera.azimuth_deg - lag + azimuth_deg)
+        e = math.radians(camera.elevation_deg * 0.5 + elevation_deg)
+        vector: Float64 = np.array([math.sin(a) * math.cos(e), math.sin(e), math.cos(a) * math.cos(e)])
+        return float(vector[0]), float(vector[1]), float(vector[2])

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from facemorph.core.arrays import Float32, Float64
+from facemorph.core.blend import Blend
 from facemorph.core.pose import Pose
+from facemorph.core.rig import Rig
+from facemorph.gl.programs import Programs
 from facemorph.gl.surface import Surface
+
+if TYPE_CHECKING:
+    import moderngl
 
 
 class Morph(Protocol):
@@ -44,3 +50,16 @@ class Shown:
     offsets: Float32 | None
     exactly: bool
     face: Mapping[str, object]
+
+
+def new_morph(
+    path: str, ctx: moderngl.Context, programs: Programs, blend: Blend, rig: Rig, surface: Surface
+) -> Morph:
+    """The way that `path` names, "shader" or "cpu", to morph `rig` on `surface`. Raises `GraphicsError`."""
+    if path == "shader":
+        from facemorph.gl.morph_shader import ShaderMorph
+
+        return ShaderMorph(ctx, programs, rig, surface)
+    from facemorph.gl.morph_cpu import CpuMorph
+
+    return CpuMorph(ctx, rig, surface, blend)

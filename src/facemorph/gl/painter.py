@@ -13,19 +13,19 @@ from typing import TYPE_CHECKING
 
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
-from facemorph.gl.backdrop import Backdrop
+from facemorph.gl.backdrop import STRENGTH, Backdrop, shadow_uniforms
 from facemorph.gl.colours import (
     FIRST_PARTNER_UNIT,
     OWN_UNIT,
-    STENCIL_UNIT,
     Source,
     blended_opacity,
     source_of,
+    stencil_of,
 )
 from facemorph.gl.exposure import Exposures, exposed
 from facemorph.gl.heat import ramp
 from facemorph.gl.insides import Insides
-from facemorph.gl.lights import Lights
+from facemorph.gl.light_rigs import lights_of
 from facemorph.gl.materials import CLAY, CLAY_COLOUR, Finish, finish_of
 from facemorph.gl.programs import Programs
 from facemorph.gl.skin_maps import skin_maps
@@ -47,10 +47,9 @@ FINE_MESH = 8000
 class Painter:
     """Draws a surface with a context's programs."""
 
-    def __init__(self, ctx: moderngl.Context, programs: Programs, lights: Lights, *, software: bool) -> None:
+    def __init__(self, ctx: moderngl.Context, programs: Programs, *, software: bool) -> None:
         self._ctx = ctx
         self._programs = programs
-        self._lights = lights
         self._software = software
         self.textures = Textures(ctx, software=software)
         self._exposures = Exposures(self.textures)
@@ -83,10 +82,12 @@ class Painter:
         """
         self._glowing, self._hurried = glowing, hurried
         self._shares = tuple(shares) or (1.0, *(0.0 for _ in surface.partners))
-        scene = {**scene_uniforms(camera, look, size, self._lights, self._shares), **face}
+        lights = lights_of(look.light)
+        scene = {**scene_uniforms(camera, look, size, lights, self._shares), **face}
+        scene |= shadow_uniforms(surface.form.of_file.bounds, camera, size, STRENGTH)
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
-        if look.shading == "skin":
+        if look.shading == "skin" and lights.adapts:
             scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="
@@ -180,23 +181,34 @@ class Painter:
     def _draw_part(self, surface: Surface, part: Part, look: Look, scene: Uniforms) -> None:
         if look.shading in ("clay", "wire"):
             self._draw_lit(
-                surface, part, scene, CLAY, Source(CLAY_COLOUR, 1.0), stencil=self._stencil(surface, part)
+                surface,
+                part,
+                scene,
+                CLAY,
+                Source(CLAY_COLOUR, 1.0),
+                stencil=stencil_of(part.material, surface.mesh, self.textures),
             )
         elif look.shading == "normals":
-            self._draw(surface, part, scene, "normals.frag", self._stencil(surface, part), {})
+            self._draw(
+                surface,
+                part,
+                scene,
+                "normals.frag",
+                stencil_of(part.material, surface.mesh, self.textures),
+                {},
+            )
         elif look.shading == "heat":
             self._heat_ramp().use(0)
-            self._draw(surface, part, scene, "heat.frag", ["LIT", "HEAT", *self._stencil(surface, part)], {})
+            self._draw(
+                surface,
+                part,
+                scene,
+                "heat.frag",
+                ["LIT", "HEAT", *stencil_of(part.material, surface.mesh, self.textures)],
+                {},
+            )
         else:
             self._draw_material(surface, part, scene)
-
-    def _stencil(self, surface: Surface, part: Part) -> list[str]:
-        """What shadings without the part's own colours need to leave out what its texture leaves out."""
-        own = source_of(part.material, surface.mesh, self.textures)
-        if own.texture is None or not own.cut_out:
-            return []
-        own.texture.use(STENCIL_UNIT)
-        return ["STENCILLED"]
 
     def _draw_material(self, surface: Surface, part: Part, scene: Uniforms) -> None:
         """A part in its own colours: its texture's, the vertices', or its material's."""

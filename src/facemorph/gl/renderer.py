@@ -19,9 +19,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
-from facemorph.core.arrays import Float32, UInt8
+import numpy as np
+
+from facemorph.core.arrays import Bool, Float32, UInt8
 from facemorph.core.blend import Blend
 from facemorph.core.camera import Camera
 from facemorph.core.lengths import displacements
@@ -35,12 +38,13 @@ from facemorph.gl.draw_clock import DrawClock
 from facemorph.gl.drivers import Driver, drivers_of
 from facemorph.gl.form import Form
 from facemorph.gl.heat import DIFFERENCE, DISPLACEMENT, Legend, heat_end, heat_legend
-from facemorph.gl.lights import Lights
-from facemorph.gl.morph import Morph, Stats
+from facemorph.gl.luminance import EqualLuminance
+from facemorph.gl.morph import Stats, new_morph
 from facemorph.gl.painter import Painter
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.programs import Programs
 from facemorph.gl.scenes import checked_scene
+from facemorph.gl.skin_mask import paint_skin
 from facemorph.gl.stage import Stage
 from facemorph.gl.surface import Surface
 from facemorph.gl.target import Target
@@ -61,9 +65,7 @@ class Renderer:
             on the CPU; "auto" chooses by the context's renderer
     """
 
-    def __init__(
-        self, ctx: moderngl.Context, morph: MorphPath = "auto", *, lights: Lights | None = None
-    ) -> None:
+    def __init__(self, ctx: moderngl.Context, morph: MorphPath = "auto") -> None:
         if morph not in ("auto", "shader", "cpu"):
             raise OptionError(f"a morph path is auto, shader or cpu; not {morph!r}.")
         self.ctx = ctx
@@ -72,7 +74,8 @@ class Renderer:
         self.stats = Stats()
         self._programs = Programs(ctx)
         self._target = Target(ctx)
-        self._painter = Painter(ctx, self._programs, lights or Lights(), software=self.graphics.software)
+        self._painter = Painter(ctx, self._programs, software=self.graphics.software)
+        self._luminance = EqualLuminance(self)
         self._clock = None if self.graphics.software else DrawClock(ctx)
         self._rig: Rig | None = None
         self._forms: dict[int, Form] = {}
@@ -91,21 +94,12 @@ class Renderer:
         blend = Blend(rig.neutral.positions, rig.deltas)
         forms = {level: form for level, form in self._forms.items() if form.of_file is rig.neutral}
         forms[0] = forms.get(0) or Form.of(rig.neutral)
-        stage = Stage(self.ctx, rig, forms[0], lambda rig, surface: self._new_morph(rig, surface, blend))
+        stage = self._new_stage(rig, forms[0], blend)
         self._unload()
         self._rig, self._blend, self._forms = rig, blend, forms
         self._stage, self._stages = stage, {0: stage}
         self._drivers = drivers_of(rig)
         self.stats = Stats()
-
-    def _new_morph(self, rig: Rig, surface: Surface, blend: Blend) -> Morph:
-        if self.path == "shader":
-            from facemorph.gl.morph_shader import ShaderMorph
-
-            return ShaderMorph(self.ctx, self._programs, rig, surface)
-        from facemorph.gl.morph_cpu import CpuMorph
-
-        return CpuMorph(self.ctx, rig, surface, blend)
 
     def take(self, form: Form) -> None:
         """Keep a form of the loaded face's mesh, made in another thread, for when its level is drawn.
@@ -166,11 +160,14 @@ class Renderer:
 
         Raises `UnknownNameError` and `PoseError` for a pose the rig cannot take, `OptionError` for a size,
         `MeshDataError` for arrays of another shape than the rig's, `CorrespondenceError` for a partner
-        with other polygons, `OptionError` for a subdivision that is none or has too many vertices.
+        with other polygons, `OptionError` for a subdivision that is none or has too many vertices and for
+        a luminance that cannot be had (`gl.luminance` says when; it is sought in further pictures).
         """
         rig, _ = self._loaded()
         size, level = checked_size(size), checked_subdivision(look.subdivision)
         scene = checked_scene(Scene.of(what), rig)
+        if look.luminance is not None:
+            look = self._luminance.settled(scene, camera, look, size)
         # Asked of GL itself: a window's interface binds framebuffers that moderngl has not seen.
         outer = self.ctx.detect_framebuffer()
         hurried = quality == "fast" and self.graphics.software
@@ -208,6 +205,25 @@ class Renderer:
         """The picture drawn last, (H, W, 4) uint8 sRGB with straight alpha, top row first."""
         return self._target.read()
 
+    def skin_pixels(self) -> Bool:
+        """Which pixels (H, W), top row first, of the picture drawn last show nothing but skin.
+
+        Of a face that has no skin by its materials' names, all that is solid. The picture itself is lost.
+        """
+        _, stage = self._loaded()
+        if self._drawn is None:
+            raise GraphicsError("nothing has been drawn yet; call draw first.")
+        camera, size = self._drawn
+        outer = self.ctx.detect_framebuffer()
+        try:
+            framebuffer = self._target.prepare(size, min(SAMPLES, self.graphics.max_samples))
+            textures = self._painter.textures
+            paint_skin(self.ctx, self._programs, textures, stage.surface, camera, framebuffer)
+            self._target.finish(framebuffer)
+        finally:
+            self._painter.restore(outer)
+        return np.asarray(self._target.read()[..., 0] == 255)
+
     def positions(self) -> Float32:
         """Positions (V, 3) of the file's vertices as drawn last, model units, offsets and all.
 
@@ -239,16 +255,18 @@ class Renderer:
         """The stage of a level, from now on the one that is drawn; beside the file's own one is kept."""
         rig, _ = self._loaded()
         if level not in self._stages:
-            blend = self._blend
-            assert blend is not None
+            assert self._blend is not None
             form = self._forms.get(level) or Form.of(rig.neutral, level)
-            stage = Stage(self.ctx, rig, form, lambda rig, surface: self._new_morph(rig, surface, blend))
+            stage = self._new_stage(rig, form, self._blend)
             for finer in [kept for kept in self._stages if kept]:
                 self._stages.pop(finer).release()
             self._stages[level] = stage
             self.take(form)
         self._stage = self._stages[level]
         return self._stage
+
+    def _new_stage(self, rig: Rig, form: Form, blend: Blend) -> Stage:
+        return Stage(self.ctx, rig, form, partial(new_morph, self.path, self.ctx, self._programs, blend))
 
     def _take_partners(self, stage: Stage, scene: Scene) -> None:
         if not stage.take_partners(scene.partners):
@@ -278,6 +296,7 @@ class Renderer:
 
     def _unload(self) -> None:
         self._painter.textures.forget()
+        self._luminance.forget()
         for stage in self._stages.values():
             stage.release()
         self._rig = self._stage = self._blend = None

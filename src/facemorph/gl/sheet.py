@@ -17,6 +17,7 @@ from facemorph.errors import OptionError
 from facemorph.gl.heat import heat_end, heat_legend
 from facemorph.gl.labels import as_image, fitted, font
 from facemorph.gl.legend import legend_panel
+from facemorph.gl.light_rigs import lights_of
 from facemorph.gl.offscreen import Offscreen
 
 
@@ -120,19 +121,19 @@ def _letter_size(tile: tuple[int, int]) -> float:
 
 def _paper(look: Look) -> UInt8:
     """The sheet's own colour: that of the backdrop's corners, as `shaders/lib/backdrop.glsl` has it."""
-    depth = min(1.2 * (1.0 - _luminance(look)), 1.0)
+    depth = lights_of(look.light).backdrop * min(1.2 * (1.0 - _luminance(look)), 1.0)
     shade = 1.0 - 0.38 * depth
-    colour = [channel * shade for channel in look.background[:3]] + [look.background[3]]
+    colour = [channel * shade for channel in look.backdrop[:3]] + [look.backdrop[3]]
     return (np.clip(colour, 0.0, 1.0) * 255.0 + 0.5).astype(np.uint8)
 
 
 def _luminance(look: Look) -> float:
-    return float(np.dot(look.background[:3], (0.3, 0.6, 0.1)))
+    return float(np.dot(look.backdrop[:3], (0.3, 0.6, 0.1)))
 
 
 def _ink(look: Look) -> tuple[int, int, int, int]:
     """Letters that can be read on the paper; grey where nobody knows what comes behind it."""
-    if look.background[3] <= 0.5:
+    if look.backdrop[3] <= 0.5:
         return 128, 132, 140, 255
     return (236, 238, 242, 255) if _luminance(look) < 0.5 else (24, 26, 30, 255)
 

@@ -29,7 +29,8 @@ def scene_uniforms(
     return {
         "clip_from_model": np.ascontiguousarray(matrix.T, np.float32).tobytes(),
         "camera_position": tuple(float(value) for value in camera.position()),
-        "background": look.background,
+        "background": look.backdrop,
+        "backdrop_depth": lights.backdrop,
         "picture_size": (float(size[0]), float(size[1])),
         "per_heat_max": 1.0 / look.heat_max if look.heat_max else 1.0,
         "ramp": 0,
@@ -40,7 +41,7 @@ def scene_uniforms(
         **{f"partner{i}_share": share for i, share in enumerate(shares[1:])},
         **{f"partner{i}_texture": FIRST_PARTNER_UNIT + i for i in range(len(shares) - 1)},
         "glow_colour": GLOW_COLOUR,
-        **lights.uniforms(camera),
+        **lights.uniforms(camera, look.exposure),
     }
 
 

@@ -6,7 +6,7 @@ import traceback
 from dataclasses import replace
 
 from facemorph.core.morph import Curve
-from facemorph.core.picture import Shading
+from facemorph.core.picture import LightRig, Shading
 from facemorph.core.pose import Pose, state_of
 from facemorph.deform.controls import Controls
 from facemorph.errors import FacemorphError
@@ -149,6 +149,11 @@ def frame_face(app: App) -> None:
 def toggle_turntable(app: App) -> None:
     """Let the camera go round the face."""
     app.turntable = not app.turntable
+
+
+def set_light(app: App, light: LightRig) -> None:
+    """Choose the lights around the face, for now and for the next start."""
+    app.settings.light = light
 
 
 def toggle_theme(app: App) -> None:

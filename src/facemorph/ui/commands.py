@@ -12,7 +12,7 @@ from pathlib import Path
 
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.morph import CURVES
-from facemorph.core.picture import SHADINGS
+from facemorph.core.picture import LIGHT_RIGS, SHADINGS
 from facemorph.core.pose import NEUTRAL, state_of
 from facemorph.core.rig import plain_label
 from facemorph.ui import actions, files
@@ -32,6 +32,12 @@ SHADING_WORDS = {
     "wire": "Wireframe",
     "normals": "Normals",
     "heat": "Heat map",
+}
+LIGHT_WORDS = {"studio": "Studio light", "window": "Window light", "flat": "Flat light"}
+LIGHT_HELP = {
+    "studio": "A portrait's: a large key light, some of it from the other side, a rim from behind",
+    "window": "Large and soft, from one side",
+    "flat": "Even, from the front, the same for every skin, on a plain backdrop: for pictures in studies",
 }
 DIRECTION_WORDS = {
     "front": "Front",
@@ -66,6 +72,10 @@ def _shading_is(shading: str, app: App) -> bool:
 
 def _smooth_is(smooth: str, app: App) -> bool:
     return app.settings.smooth_surface == smooth
+
+
+def _light_is(light: str, app: App) -> bool:
+    return app.settings.light == light
 
 
 def _curve_is(curve: str, app: App) -> bool:
@@ -151,6 +161,8 @@ VIEW = (
             lambda app: app.rig is not None and bool(app.rig.correctives) and app.rig.corrected,
             help="Shapes between shapes that keep jaw, lids and eyes on their ways; off, every face is the "
                  "plain sum of its shapes"),
+    *(Command(LIGHT_WORDS[name], partial(actions.set_light, light=name), "View/Lights", (), 2, always,
+              partial(_light_is, name), help=LIGHT_HELP[name]) for name in LIGHT_RIGS),
     Command("Faces panel", actions.toggle_left, "View", (), 3, always,
             lambda app: app.settings.left_open and not app.panels_hidden),
     Command("Pages panel", actions.toggle_right, "View", (), 3, always,

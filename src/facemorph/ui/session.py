@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facemorph.core.camera import Camera
+from facemorph.core.picture import checked_light
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
 from facemorph.ui import actions, emotion_paths, files, fonts, theme
@@ -119,7 +120,8 @@ class Session:
         if wanted != self._style:
             theme.apply(*wanted)
             self._style = wanted
-        app.look = replace(app.look, background=theme.THEMES[app.settings.theme].backdrop)
+        backdrop = theme.THEMES[app.settings.theme].backdrop
+        app.look = replace(app.look, background=backdrop, light=checked_light(app.settings.light))
 
     def _take_arriving(self, app: App) -> None:
         """Show the face that was loaded, if the renderer can; else keep the one there is."""

@@ -13,6 +13,8 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
+from facemorph.core.picture import LIGHT_RIGS
+
 VERSION = 1
 MOST_RECENT = 12
 THEMES = ("dark", "light")
@@ -26,6 +28,7 @@ class Settings:
     window_size: list[int] = field(default_factory=lambda: [1280, 800])
     maximized: bool = False
     theme: str = "dark"
+    light: str = "studio"
     recent: list[list[str]] = field(default_factory=list)
     left_open: bool = False
     right_open: bool = True
@@ -77,6 +80,7 @@ _FITS: dict[str, Callable[[Any], bool]] = {
     "window_size": _is_size,
     "maximized": _flag,
     "theme": lambda v: v in THEMES,
+    "light": lambda v: v in LIGHT_RIGS,
     "recent": lambda v: isinstance(v, list) and len(v) <= 100 and all(_text_list(e) and e for e in v),
     "left_open": _flag,
     "right_open": _flag,

@@ -14,7 +14,7 @@ from facemorph.ui.widgets import cut, tooltip, unit
 _SUBMENUS: dict[str, dict[int, tuple[str, ...]]] = {
     "File": {1: ("Open recent", "Built-in faces")},
     "Expression": {1: ("FACS units", "Emotion map", "People", "Handles", "Regions")},
-    "View": {3: ("Smooth surface",), 4: ("Page",)},
+    "View": {3: ("Lights", "Smooth surface"), 4: ("Page",)},
 }
 
 

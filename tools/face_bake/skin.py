@@ -10,7 +10,7 @@ from .mouth_paint import LINING_LIGHT, paint_lining
 from .paintkit import Noise, mix, smoothstep, tint
 from .parts_eyes_lid_paint import lid_light, paint_lids
 from .people import Look
-from .skin_tones import aged, blood_of, freckled, melanin_of, shaven, stained, veins
+from .skin_tones import aged, blood_of, freckled, melanin_of, paleness, shaven, stained, veins
 
 LIP_LIGHT = 0.68
 # How deep shade is in the stored colours, by channel.
@@ -66,6 +66,7 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, age: float = 0.0, 
     light = lid_light(np.clip(light * 1.12, 0, 1), canvas.lid_edge, canvas.upper_lid, canvas.lower_lid)
     # The neutral's closed mouth is dark on the lips' inner sides; an open one is not.
     light = np.where(canvas.mouth > 0, LINING_LIGHT, np.maximum(light, LIP_LIGHT * canvas.lips))
-    # Shade in skin is warm: red light travels further through it.
-    red, green, blue = SHADE
+    # Shade in skin is warm, for red light travels further through it, and fair skin throws light into its
+    # own hollows.
+    red, green, blue = np.array(SHADE) * (1 - 0.30 * paleness(look))
     return colour * np.stack([light**red, light**green, light**blue], -1)

@@ -26,7 +26,7 @@ def stained(colour: np.ndarray, melanin: np.ndarray, blood: np.ndarray) -> np.nd
     return colour * np.exp(-melanin[:, None] * MELANIN - blood[:, None] * BLOOD)
 
 
-def _paleness(look: Look) -> float:
+def paleness(look: Look) -> float:
     """1 for skin so fair that blood shows, 0.3 for the darkest."""
     return float(np.clip((look.skin[1] - 0.20) / 0.45, 0.3, 1.0))
 
@@ -47,7 +47,7 @@ def blood_of(points, ears, broad, mottling, look: Look) -> np.ndarray:
     ):
         total = total + amount * spot(points, centre, radii) * (1 + 0.30 * mottling)
     shells = ears * (np.abs(points[:, 0]) > 0.66)
-    return _paleness(look) * (total + 0.45 * shells * (0.8 + 0.2 * broad))
+    return paleness(look) * (total + 0.45 * shells * (0.8 + 0.2 * broad))
 
 
 def melanin_of(points, mottling, noise: Noise, look: Look, age: float) -> np.ndarray:
@@ -70,8 +70,8 @@ def veins(colour, points, noise: Noise, look: Look) -> np.ndarray:
     where = spot(points, (0.63, 7.50, 0.95), (0.14, 0.22, 0.35)) + 0.6 * spot(
         points, (0.28, 7.13, 1.4), (0.16, 0.05, 0.2)
     )
-    amount = 0.55 * _paleness(look) * line * np.clip(where, 0, 1)
-    hollow = 0.45 * _paleness(look) * spot(points, (0.24, 7.155, 1.40), (0.13, 0.045, 0.12))
+    amount = 0.55 * paleness(look) * line * np.clip(where, 0, 1)
+    hollow = 0.45 * paleness(look) * spot(points, (0.24, 7.155, 1.40), (0.13, 0.045, 0.12))
     return colour * (1 - np.clip(amount + hollow, 0, 1)[:, None] * np.array([0.10, 0.055, 0.015], np.float32))
 
 
@@ -92,7 +92,7 @@ def freckled(colour, points, noise: Noise, look: Look) -> np.ndarray:
         there = number < share * np.clip(where * patchy, 0, 1)
         strength = 0.35 + 0.65 * (number * 31.7 % 1)
         melanin += there * strength * smoothstep(1.25 * radius, 0.45 * radius, nearest)
-    return stained(colour, look.freckles * 1.5 * np.clip(melanin, 0, 1.3), np.zeros_like(melanin))
+    return stained(colour, look.freckles * 1.05 * np.clip(melanin, 0, 1.3), np.zeros_like(melanin))
 
 
 def aged(colour, points, noise: Noise, age: float) -> np.ndarray:

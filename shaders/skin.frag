@@ -44,7 +44,7 @@ float wrinkled(vec2 place) {
 
 // Furrows keep light out; what gets out again is red.
 vec3 occluded(float height) {
-    return 1.0 - clamp(-height, 0.0, 0.5) * vec3(0.85, 1.25, 1.4);
+    return 1.0 - clamp(-height, 0.0, 0.5) * vec3(0.60, 0.85, 0.95);
 }
 #endif
 
@@ -71,7 +71,7 @@ vec3 slope_of_relief(vec3 n) {
     vec2 uv_across = dFdx(surface_uv), uv_down = dFdy(surface_uv);
 #ifdef RELIEF
     if (relief_is_normals) {
-        vec3 told = texture(relief_texture, surface_uv).xyz * 2.0 - 1.0;
+        vec3 told = 2.0 * texture(relief_texture, surface_uv).xyz - 256.0 / 255.0;
         float turn = uv_across.x * uv_down.y - uv_across.y * uv_down.x < 0.0 ? -1.0 : 1.0;
         vec3 along_u = tangent(n, (across * uv_down.y - down * uv_across.y) * turn);
         vec3 along_v = tangent(n, (down * uv_across.x - across * uv_down.x) * turn);

@@ -30,6 +30,8 @@ GROUPS = [
     "hair_locks",
 ]
 PICTURES = ("skin.jpg", "eye.jpg", "teeth.jpg", "gum.jpg", "tongue.jpg", "lash.png", "brow.png", "hair.png")
+SKIN_MAPS = ("relief.jpg", "roughness.jpg", "wrinkles.jpg")
+LARGEST_SKIN_MAPS = 0.7e6
 REGIONS = ["brows", "eyes", "nose", "cheeks", "mouth", "jaw"]
 MEGABYTE = 1e6
 LARGEST_FOLDER, LARGEST_ZIPPED = 56 * MEGABYTE, 30 * MEGABYTE
@@ -134,7 +136,27 @@ def check_description(folder: Path, report: Report, vertices: int) -> list:
         report.require((folder / entry["file"]).is_file(), f"{folder}: {entry['file']} is missing")
     for picture in PICTURES:
         report.require((folder / picture).is_file(), f"{folder}: {picture} is missing")
+    check_skin_maps(folder, report, data.get("wrinkles", []))
     return marks
+
+
+def check_skin_maps(folder: Path, report: Report, wrinkles: list):
+    """The skin's further pictures are small; each wrinkle lies in them and follows shapes that there are."""
+    paths = [folder / name for name in SKIN_MAPS]
+    missing = [path.name for path in paths if not path.is_file()]
+    report.require(not missing, f"{folder}: {missing} are missing")
+    size = sum(path.stat().st_size for path in paths if path.is_file())
+    report.require(size <= LARGEST_SKIN_MAPS, f"{folder}: the skin's maps are {size} bytes")
+    material = (folder / "face.mtl").read_text(encoding="ascii")
+    report.require(all(name in material for name in SKIN_MAPS), f"{folder}: face.mtl names not all maps")
+    with np.load(folder / "shapes.npz", allow_pickle=False) as data:
+        known = {*STATES, *data["names"].tolist()}
+    report.require(len(wrinkles) == 20, f"{folder}: {len(wrinkles)} wrinkles")
+    for wrinkle in wrinkles:
+        u0, v0, u1, v1 = wrinkle["area"]
+        report.require(0 < u0 < u1 < 1 and 0 < v0 < v1 < 1, f"{folder}: area of {wrinkle['name']}")
+        strange = [name for name in wrinkle["shapes"] if name not in known]
+        report.require(not strange, f"{folder}: {wrinkle['name']} follows {strange}")
 
 
 def check_person(folder: Path, report: Report, tail: str, triangles: np.ndarray) -> list:

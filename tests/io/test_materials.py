@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from facemorph.io import read_mesh
+from facemorph.io import read_mesh, write_obj
 from facemorph.io.mtl import read_libraries
 from tests.io.texts import SQUARE, written
 
@@ -107,3 +107,52 @@ def test_a_texture_that_is_not_there_is_told_and_its_material_knows(tmp_path: Pa
     assert mesh.materials["skin"].texture_lost
     assert len(mesh.notes) == 1
     assert name in mesh.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("line", "field", "height"),
+    [
+        ("map_Bump a b.png", "bump", None),
+        ("map_bump -bm 0.25 a b.png", "bump", 0.25),
+        ("bump -o 0 0 -bm 2 -clamp on a b.png", "bump", 2.0),
+        ("norm a b.png", "bump", None),
+        ("map_Bump -bm nan a b.png", "bump", None),
+        ("map_Bump -bm 1e300 a b.png", "bump", 1e6),
+        ("map_wrinkles -bm 0.1 a b.png", "wrinkles", 0.1),
+        ("map_Pr a b.png", "roughness", None),
+    ],
+)
+def test_further_maps_are_read_with_their_height(
+    tmp_path: Path, line: str, field: str, height: float | None
+) -> None:
+    (tmp_path / "a b.png").write_bytes(b"x")
+    written(tmp_path, f"newmtl skin\n{line}\n", "face.mtl")
+    skin = read_mesh(written(tmp_path, MESH)).materials["skin"]
+    assert getattr(skin, field) == tmp_path / "a b.png" == skin.pictures[0]
+    assert skin.texture is None and not skin.texture_lost
+    assert {"bump": skin.bump_height, "wrinkles": skin.wrinkle_height}.get(field) == height
+
+
+@pytest.mark.parametrize("key", ["map_Bump", "bump", "norm", "map_Pr", "map_wrinkles"])
+@pytest.mark.parametrize("name", ["../secret.png", "link.png", "/etc/passwd", "gone.png", "C:\\x.png"])
+def test_no_further_map_leaves_the_folder(tmp_path: Path, key: str, name: str) -> None:
+    folder = tmp_path / "face"
+    folder.mkdir()
+    (tmp_path / "secret.png").write_bytes(b"x")
+    (folder / "link.png").symlink_to(tmp_path / "secret.png")
+    written(folder, f"newmtl skin\n{key} -bm 1 {name}\n", "face.mtl")
+    library = read_libraries(written(folder, MESH), ["face.mtl"])
+    assert library.materials["skin"].pictures == ()
+    assert "not in the mesh's folder" in library.problems[0]
+
+
+def test_further_maps_go_with_an_export(tmp_path: Path) -> None:
+    folder = tmp_path / "face"
+    folder.mkdir()
+    for name in ("a.png", "b.png", "c.png"):
+        (folder / name).write_bytes(name.encode())
+    written(folder, "newmtl skin\nmap_Bump -bm 0.5 a.png\nmap_Pr b.png\nmap_wrinkles c.png\n", "face.mtl")
+    write_obj(tmp_path / "out" / "face.obj", read_mesh(written(folder, MESH)))
+    skin = read_mesh(tmp_path / "out" / "face.obj").materials["skin"]
+    assert [path.read_bytes() for path in skin.pictures] == [b"a.png", b"b.png", b"c.png"]
+    assert (skin.bump_height, skin.wrinkle_height) == (0.5, None)

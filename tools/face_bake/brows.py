@@ -136,7 +136,7 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
     lines, halves = [], []
     # Tips lie over the roots of the next hairs outwards and upwards, so those come first.
     for row in reversed(range(ROWS)):
-        u = (np.arange(PLACES)[::-1] + rng.uniform(0.2, 0.8, PLACES)) / PLACES
+        u = (np.arange(PLACES)[::-1] + 0.5 * row + rng.uniform(0.0, 0.5, PLACES)) / PLACES
         # The inner end frays: its hairs begin at any height.
         fray = np.interp(u, [0, 0.25], [0.42, 0.16]) * (1 - 0.5 * row)
         across = (-0.60, np.interp(u, [0, 0.2], [-0.15, 0.10]))[row] + fray * rng.uniform(-1, 1, PLACES)
@@ -151,7 +151,7 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
         steps = [np.stack([np.cos(turn), np.sin(turn)], -1) * length[:, None] / 2 for turn in turns.T]
         steps = [step[:, :1] * tangent + step[:, 1:] * normal for step in steps]
         lines.append(np.stack([root, root + steps[0], root + steps[0] + steps[1]], 1))
-        halves.append(np.interp(u, [0, 0.06, 0.25, 1], [0.012, 0.019, 0.024, 0.013]) * look.brow_thickness)
+        halves.append(np.interp(u, [0, 0.06, 0.25, 1], [0.014, 0.022, 0.029, 0.015]) * look.brow_thickness)
     one, half = np.concatenate(lines), np.concatenate(halves)
     return np.concatenate([one, one * [-1, 1]]), np.concatenate([half, half])[:, None, None]
 

@@ -35,18 +35,18 @@ def _picture(strokes: Strokes) -> Image.Image:
 def brow_picture(look: Look) -> Image.Image:
     """Tiles of hairs that grow downwards in the picture and taper to their tips."""
     rng, whole = np.random.default_rng(31), Strokes(BROW_TILE * BROW_TILES, BROW_HEIGHT, ground=0.8)
-    hairs = round(9 * look.brow_density)
+    hairs = round(11 * look.brow_density)
     for tile in range(BROW_TILES):
         for k in range(hairs):
             rows = whole.rows
             at = (k + rng.uniform(0.2, 0.8)) / hairs
-            start, length = rng.uniform(0.0, 0.34), rng.uniform(0.5, 0.78)
+            start, length = rng.uniform(-0.08, 0.40), rng.uniform(0.5, 0.72)
             t = (rows - start) / length
             bend = rng.normal(0, 5) * np.clip(t, 0, 1) ** 2 + rng.normal(0, 3) * np.clip(t, 0, 1)
-            x = tile * BROW_TILE + 7 + at * (BROW_TILE - 14) + bend
+            x = tile * BROW_TILE + 3 + at * (BROW_TILE - 6) + bend
             x = np.clip(x, tile * BROW_TILE + 2, (tile + 1) * BROW_TILE - 2)
             width = 3.2 * np.clip(1 - t, 0.05, 1) ** 0.6 * rng.uniform(0.8, 1.2)
-            opacity = 0.86 * smoothstep(0.0, 0.16, t) * smoothstep(1.0, 0.80, t)
+            opacity = 0.86 * smoothstep(0.0, 0.08, t) * smoothstep(1.0, 0.80, t)
             tone = 0.68 + 0.22 * np.clip(t, 0, 1) + rng.normal(0, 0.08)
             whole.strand(x, width, tone, opacity)
     return _picture(whole)

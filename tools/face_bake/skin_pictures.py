@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageFilter
 
 from .ageing import age_of
 from .head import Body
@@ -13,6 +13,8 @@ from .wrinkle_rules import SET_NAMES
 from .wrinkles import paint_wrinkles, wrinkle_height
 
 RELIEF_QUALITY, ROUGHNESS_QUALITY, WRINKLE_QUALITY = 74, 85, 88
+# Young skin folds in rounder furrows: so many of 1024 pixels.
+YOUNG_BLUR = 1.8
 # Sides of the pictures as parts of the skin's.
 RELIEF_PART, WRINKLE_PART = 0.75, 0.5
 
@@ -34,7 +36,9 @@ class SkinPictures:
         rough = self._relief.roughness(self._painter.light(body), person.look)
         rough.save(folder / "roughness.jpg", quality=ROUGHNESS_QUALITY, optimize=True)
         # Colours are sets of wrinkles: their edges must stay where they are.
-        self._wrinkles.save(folder / "wrinkles.jpg", quality=WRINKLE_QUALITY, subsampling=0, optimize=True)
+        soft = YOUNG_BLUR * (1 - age_of(person)) * self._wrinkles.width / 1024
+        wrinkles = self._wrinkles.filter(ImageFilter.GaussianBlur(soft))
+        wrinkles.save(folder / "wrinkles.jpg", quality=WRINKLE_QUALITY, subsampling=0, optimize=True)
 
     def toml_lines(self, person: Person) -> list[str]:
         """The [[wrinkles]] of a person's description."""

@@ -35,9 +35,9 @@ def blood_of(points, ears, broad, mottling, look: Look) -> np.ndarray:
     """Blood (p,) under the skin: in cheeks, nose, ears, lids and chin; less in the forehead's middle."""
     total = 0.06 * broad + 0.075 * mottling
     for amount, centre, radii in (
-        (0.36 * look.blush, (0.41, 6.96, 1.35), (0.21, 0.16, 0.30)),
-        (0.48, (0, 6.93, 1.68), (0.11, 0.11, 0.18)),
-        (0.55, (0.145, 6.89, 1.5), (0.055, 0.06, 0.12)),
+        (0.30 * look.blush, (0.41, 6.96, 1.35), (0.21, 0.16, 0.30)),
+        (0.30, (0, 6.93, 1.68), (0.11, 0.11, 0.18)),
+        (0.38, (0.145, 6.89, 1.5), (0.055, 0.06, 0.12)),
         (0.30, (0, 6.28, 1.5), (0.15, 0.09, 0.20)),
         (0.30, (0.32, 7.17, 1.40), (0.18, 0.06, 0.15)),
         (0.28, (0.16, 7.27, 1.42), (0.06, 0.07, 0.10)),
@@ -82,7 +82,7 @@ def freckled(colour, points, noise: Noise, look: Look) -> np.ndarray:
     where = 1.0 * spot(points, (0.24, 7.03, 1.45), (0.30, 0.16, 0.3)) + 0.45 * spot(
         points, (0, 7.10, 1.6), (0.14, 0.22, 0.3)
     )
-    where = where + 0.20 * (points[:, 2] > 0.8) + 0.18 * (points[:, 1] < 5.7)
+    where = 1.2 * where + 0.22 * (points[:, 2] > 0.8) + 0.18 * (points[:, 1] < 5.7)
     patchy = np.clip(0.75 + 0.45 * noise(points, 6), 0, 1.3)
     melanin = np.zeros(len(points), np.float32)
     for size, share, seed in ((FRECKLE, 0.75, 41), (0.6 * FRECKLE, 0.9, 42)):
@@ -90,9 +90,9 @@ def freckled(colour, points, noise: Noise, look: Look) -> np.ndarray:
         nearest, _, number = cells_where(where > 0.03, uneven, size, seed)
         radius = 0.10 + 0.20 * (number * 7.3 % 1)
         there = number < share * np.clip(where * patchy, 0, 1)
-        strength = 0.25 + 0.75 * (number * 31.7 % 1)
+        strength = 0.35 + 0.65 * (number * 31.7 % 1)
         melanin += there * strength * smoothstep(1.25 * radius, 0.45 * radius, nearest)
-    return stained(colour, look.freckles * 1.25 * np.clip(melanin, 0, 1.3), np.zeros_like(melanin))
+    return stained(colour, look.freckles * 1.5 * np.clip(melanin, 0, 1.3), np.zeros_like(melanin))
 
 
 def aged(colour, points, noise: Noise, age: float) -> np.ndarray:
@@ -121,7 +121,7 @@ def _beard(points, lips, noise: Noise) -> np.ndarray:
     # The upper edge runs from the sideburn down past the corner of the mouth.
     edge = np.interp(around, [0.0, 0.28, 0.40, 0.75, 1.15, 1.6], [6.50, 6.62, 6.70, 6.78, 6.98, 7.15])
     edge = edge + 0.035 * noise.layered(points, 9, 2)
-    jaw = smoothstep(edge + 0.07, edge - 0.13, y) * smoothstep(5.88, 6.22, y + 0.06 * noise(points, 8))
+    jaw = smoothstep(edge + 0.07, edge - 0.13, y) * smoothstep(6.00, 6.30, y + 0.06 * noise(points, 8))
     jaw = jaw * smoothstep(1.75, 1.45, around) * (z > AXIS_Z - 0.2)
     jaw = jaw * (1 - 0.35 * spot(points, (0.20, 6.50, 1.45), (0.09, 0.05, 0.2)))
     lip = smoothstep(6.685, 6.715, y) * smoothstep(6.865, 6.80, y + 0.10 * around)
@@ -131,20 +131,20 @@ def _beard(points, lips, noise: Noise) -> np.ndarray:
     return np.clip(np.maximum(np.maximum(jaw, lip), beside), 0, 1) * (1 - np.clip(2.5 * lips, 0, 1))
 
 
-def shaven(colour, points, lips, noise: Noise, look: Look) -> np.ndarray:
+def shaven(colour, points, lips, ears, noise: Noise, look: Look) -> np.ndarray:
     """Stubble: roots shimmer bluish through the skin, and short hairs point down out of it."""
     if not look.stubble:
         return colour
-    beard = _beard(points, lips, noise)
+    beard = _beard(points, lips, noise) * (1 - np.clip(2 * ears, 0, 1))
     depth = look.stubble * beard * (1 + 0.15 * noise(points, 7))
     # Light that comes back from below the skin lacks its warm part where dark roots swallow it.
-    colour = colour * (1 - 0.40 * depth[:, None] * np.array([0.42, 0.36, 0.27], np.float32))
+    colour = colour * (1 - 0.55 * depth[:, None] * np.array([0.42, 0.36, 0.27], np.float32))
     slanted = points * np.array([1.0, 0.36, 1.0], np.float32)
     slanted = slanted + 0.10 * points[:, 1:2] * np.sign(points[:, :1]) * np.array([1.0, 0, 0], np.float32)
     for seed in (61, 62):
         nearest, _, number = cells_where(beard > 0.02, slanted, HAIR, seed)
         grey = np.mean(look.hair) > 0.3
-        hair = np.array(look.hair, np.float32) * (0.8 if grey else 0.55)
+        hair = np.array(look.hair, np.float32) * (0.62 if grey else 0.55)
         hair = np.clip(hair + (0.25 * (number[:, None] * 17.3 % 1) if grey else 0.0), 0, 1)
         seen = smoothstep(0.40, 0.14, nearest) * (number * 3.7 % 1 < 0.25 + 0.75 * beard)
         colour = mix(colour, hair, np.clip(0.62 * look.stubble * smoothstep(0.05, 0.6, beard) * seen, 0, 1))

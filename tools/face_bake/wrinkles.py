@@ -20,7 +20,7 @@ AXIS_Z, AROUND = 0.35, 1.0
 STEPS = 48
 MIDDLE = 128
 # Heights in centimetres from black to white, of a young skin and what age adds.
-YOUNG, AGEING = 0.075, 0.075
+YOUNG, AGEING = 0.060, 0.090
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,7 @@ def _add(height, stroke: Stroke, around, up, front, rng):
     thick = stroke.width * (0.65 + 0.35 * np.minimum(depth / stroke.depth, 1.2))
     d = distance / thick
     furrow = np.exp(-(d**2))
-    bulge = 0.42 * np.exp(-(((d - 2.1) / 1.2) ** 2))
+    bulge = 0.30 * np.exp(-(((d - 2.1) / 1.3) ** 2))
     # A line that begins at the middle goes on beyond it on the other side: it is mirrored there.
     own = around[where] >= 0
     height[where] += (depth * (bulge - furrow) * own).astype(np.float32)

@@ -65,12 +65,11 @@ class Refinement:
         """Another mesh of the very same polygons, refined alike; `fine`'s own arrays where they agree."""
         if mesh is self.coarse:
             return self.fine
-        result = mesh
+        shared = _same_uvs(mesh, self.coarse)
+        result = replace(mesh, corner_uvs=None) if shared else mesh
         for step in self.steps:
             result = _finer(result, step)
-        if _same_uvs(mesh, self.coarse):
-            result = replace(result, uvs=self.fine.uvs, corner_uvs=self.fine.corner_uvs)
-        return result
+        return replace(result, uvs=self.fine.uvs, corner_uvs=self.fine.corner_uvs) if shared else result
 
 
 def _finer(mesh: Mesh, step: Step) -> Mesh:

@@ -46,7 +46,7 @@ class Finish:
 
 SKIN = Finish(
     wrap=(0.34, 0.17, 0.11),
-    gloss=0.72,
+    gloss=0.85,
     sharpness=26.0,
     sheen=0.9,
     matte=0.045,

@@ -42,7 +42,7 @@ def strip(folder: Path, name: str, *, curved: bool = False, covers: bool = True)
         uvs,
         corners.ravel(),
         materials_used=Labels((name,), np.zeros(len(corners), np.int32)),
-        materials={name: Material(name, (0.3, 0.2, 0.1), opacity=0.995, texture=path)},
+        materials={name: Material(name, (0.3, 0.2, 0.1), specular=(0.3,) * 3, opacity=0.995, texture=path)},
     )
     return Rig(mesh, (), np.zeros((0, len(positions), 3), np.float32), FaceInfo("Strip"))
 
@@ -93,7 +93,8 @@ def test_hair_shines_in_a_band_across_its_strands(screen: Offscreen, folder: Pat
 def test_hair_shines_as_its_file_says() -> None:
     straight, coiled = (Material("hair", specular=(shine,) * 3) for shine in (0.3, 0.075))
     assert finish_of(straight).gloss == pytest.approx(4 * finish_of(coiled).gloss)
-    assert finish_of(Material("Hair_Lock")).one_sided
+    assert finish_of(Material("Hair_Lock", specular=(0.3,) * 3)).one_sided
+    assert not finish_of(Material("hair_lock", specular=(0.075,) * 3)).one_sided, "coils are seen from behind"
     assert not finish_of(Material("eyelash")).one_sided
 
 

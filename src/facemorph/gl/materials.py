@@ -54,7 +54,7 @@ SKIN = Finish(
     relief=True,
 )
 EYE = Finish(
-    wrap=(0.30, 0.28, 0.28),
+    wrap=(0.85, 0.78, 0.76),
     gloss=5.0,
     sharpness=520.0,
     sheen=0.0,

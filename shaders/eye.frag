@@ -40,7 +40,10 @@ float cubic(vec4 c, float x) {
 // How far a point of the ball is below the upper lid's edge and above the lower one's, in radii.
 vec2 from_lids(int eye, vec3 place) {
     float x = clamp(place.x, lid_span[eye].x, lid_span[eye].y);
-    return vec2(cubic(upper_lid[eye], x) - place.y, place.y - cubic(lower_lid[eye], x));
+    // Straight on where the cubics end, towards the corner.
+    float beyond = abs(place.x - x) * 0.7;
+    float upper = cubic(upper_lid[eye], x) - beyond, lower = cubic(lower_lid[eye], x) + beyond;
+    return vec2(upper - place.y, place.y - lower);
 }
 
 // What the lids let through: softly dark below the upper one and its lashes, a little above the lower one.
@@ -79,7 +82,9 @@ vec3 eyeball(int eye, vec3 n, vec3 view, inout vec4 paint) {
     vec3 wet = normalize(mix(n, cornea_normal, clear));
     // The iris lies flat behind the cornea, which gathers light on the side away from the lamp.
     vec3 lit_normal = normalize(mix(n, forward, 0.75 * clear));
-    vec3 light = open_light(lit_normal) * mix(SOCKET, 1.0, clear);
+    vec3 light = open_light(lit_normal);
+    // Lights made strong for dark skin would let the white of the eye glare.
+    light *= mix(SOCKET / (1.0 + 0.24 * light.g), 0.85, clear);
     vec2 lamp = vec2(dot(key_direction, right), dot(key_direction, up));
     light *= 1.0 + clear * (0.15 - 0.75 * dot(on_iris, lamp));
     vec3 place = (surface_position - eye_centre[eye]) / eye_radius[eye];

@@ -63,6 +63,11 @@ def test_a_sheet_of_hair_lies_outside_the_skull(name: str) -> None:
     assert outside[above].min() > -0.01
     steps = np.linalg.norm(np.diff(sheet.points, axis=1), axis=-1)
     assert steps.max() < 0.3, "no column leaps"
+    points = sheet.coarse()
+    a, b, c, d = points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]
+    for one, other in ((b - a, c - a), (c - a, d - a)):
+        area = np.linalg.norm(np.cross(one, other), axis=-1)
+        assert area.min() > 1e-8, "no triangle is flat"
 
 
 @pytest.mark.parametrize("name", STYLES)

@@ -20,10 +20,9 @@ from facemorph.gl.materials import finish_of
 from tests.gl.heads import head_mesh
 
 FROM_FRONT = Camera((0.0, 0.0, 0.0), 0.0, 0.0, 10.0, 24.0, 2.0)
-BACKGROUND = (0.0, 0.0, 1.0, 1.0)
 
 
-def strip(folder: Path, name: str, *, curved: bool = False) -> Rig:
+def strip(folder: Path, name: str, *, curved: bool = False, covers: bool = True) -> Rig:
     """A strip of hair before the camera, v upwards; the picture's left half lets everything through."""
     rows = 25
     y = np.linspace(1.0, -1.0, rows)
@@ -33,8 +32,9 @@ def strip(folder: Path, name: str, *, curved: bool = False) -> Rig:
     uvs = np.stack([np.tile([0.0, 1.0], rows), np.repeat(0.5 + 0.5 * y, 2)], -1).astype(np.float32)
     corners = np.array([[2 * k, 2 * k + 2, 2 * k + 3, 2 * k + 1] for k in range(rows - 1)], np.int32)
     pixels = np.full((8, 8, 4), 140, np.uint8)
-    pixels[:, :4, 3], pixels[:, 4:, 3] = 0, 255
-    Image.fromarray(pixels).save(folder / "hair.png")
+    pixels[:, :4, 3], pixels[:, 4:, 3] = 0, 255 * covers
+    path = folder / f"hair {covers}.png"
+    Image.fromarray(pixels).save(path)
     mesh = Mesh(
         positions,
         np.arange(0, corners.size + 1, 4, dtype=np.int32),
@@ -42,16 +42,18 @@ def strip(folder: Path, name: str, *, curved: bool = False) -> Rig:
         uvs,
         corners.ravel(),
         materials_used=Labels((name,), np.zeros(len(corners), np.int32)),
-        materials={name: Material(name, (0.3, 0.2, 0.1), opacity=0.995, texture=folder / "hair.png")},
+        materials={name: Material(name, (0.3, 0.2, 0.1), specular=(0.3,) * 3, opacity=0.995, texture=path)},
     )
     return Rig(mesh, (), np.zeros((0, len(positions), 3), np.float32), FaceInfo("Strip"))
 
 
-def shown(screen: Offscreen, rig: Rig, shading: Shading, camera: Camera = FROM_FRONT) -> np.ndarray:
-    """(60, 60) bool, where the picture is not the backdrop's."""
-    look = Look(shading=shading, background=BACKGROUND)
-    empty = replace(camera, target=(1000.0, 0.0, 0.0))
-    pictures = [screen.render(rig, {}, size=(60, 60), camera=c, look=look) for c in (camera, empty)]
+def shown(
+    screen: Offscreen, folder: Path, name: str, shading: Shading, camera: Camera = FROM_FRONT
+) -> np.ndarray:
+    """(60, 60) bool, where a strip of this material changes the picture."""
+    look = Look(shading=shading)
+    rigs = [strip(folder, name, covers=covers) for covers in (True, False)]
+    pictures = [screen.render(rig, {}, size=(60, 60), camera=camera, look=look) for rig in rigs]
     return np.asarray(np.abs(pictures[0].astype(int) - pictures[1]).max(-1) > 8)
 
 
@@ -59,7 +61,7 @@ def shown(screen: Offscreen, rig: Rig, shading: Shading, camera: Camera = FROM_F
 def test_every_shading_leaves_out_what_the_texture_leaves_out(
     screen: Offscreen, folder: Path, shading: Shading
 ) -> None:
-    seen = shown(screen, strip(folder, "hair"), shading)
+    seen = shown(screen, folder, "hair", shading)
     assert seen[18:42, 34:40].all()
     assert not seen[18:42, 20:27].any()
 
@@ -67,9 +69,8 @@ def test_every_shading_leaves_out_what_the_texture_leaves_out(
 def test_locks_have_one_side_and_sheets_two(screen: Offscreen, folder: Path) -> None:
     behind = replace(FROM_FRONT, azimuth_deg=180.0)
     for name, both in (("hair", True), ("hair_lock", False)):
-        rig = strip(folder, name)
-        assert shown(screen, rig, "skin").any()
-        assert shown(screen, rig, "skin", behind).any() == both
+        assert shown(screen, folder, name, "skin").any()
+        assert shown(screen, folder, name, "skin", behind).any() == both
 
 
 def test_hair_shines_in_a_band_across_its_strands(screen: Offscreen, folder: Path) -> None:
@@ -92,7 +93,8 @@ def test_hair_shines_in_a_band_across_its_strands(screen: Offscreen, folder: Pat
 def test_hair_shines_as_its_file_says() -> None:
     straight, coiled = (Material("hair", specular=(shine,) * 3) for shine in (0.3, 0.075))
     assert finish_of(straight).gloss == pytest.approx(4 * finish_of(coiled).gloss)
-    assert finish_of(Material("Hair_Lock")).one_sided
+    assert finish_of(Material("Hair_Lock", specular=(0.3,) * 3)).one_sided
+    assert not finish_of(Material("hair_lock", specular=(0.075,) * 3)).one_sided, "coils are seen from behind"
     assert not finish_of(Material("eyelash")).one_sided
 
 

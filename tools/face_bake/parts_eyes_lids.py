@@ -13,7 +13,7 @@ from .strips import grid_of
 BLINK, BLINK_SIDES = "eyeBlink", ("eyeBlinkLeft", "eyeBlinkRight")
 LASH_STRIPS = ("helper-{side}-eyelashes-2", "helper-{side}-eyelashes-1")
 # The closed upper lid laps over the lower one by so much, in decimetres.
-OVERLAP = 0.009
+OVERLAP = 0.012
 # Beyond these the offsets would not be a blink any more.
 LEAST, MOST = 0.2, 1.4
 
@@ -63,5 +63,8 @@ class BlinkFit:
         centre = fit_sphere(start[EYE_VERTICES[side]])[0][0]
         half = np.abs(edge[:, 0] - centre).max()
         curve = np.polyfit((edge[:, 0] - centre) / half, share, 3, w=drop)
+        # A cubic through all of them leaves some open: the worst of them is closed too.
+        worst = (share - np.polyval(curve, (edge[:, 0] - centre) / half))[drop > 0.5 * drop.max()].max()
+        curve[-1] += max(worst, 0.0)
         place = np.clip((start[:, 0] - centre) / half, -1, 1)
         return self._moves[side] * np.clip(np.polyval(curve, place), LEAST, MOST)[:, None]

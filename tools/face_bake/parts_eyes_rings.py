@@ -18,8 +18,8 @@ RINGS = 4
 THICKNESS = (None, None, 0.008, 0.015, 0.019)
 # How wet each of the first rings is.
 WET = (1.0, 1.0, 0.8, 0.5)
-# Lashes grow so far from the third to the fourth ring, above the cage; farther ones are let be.
-ROOTS, ABOVE_SKIN, FARTHEST_ROOT = 0.9, 0.002, 0.07
+# Lashes grow so far from the third to the fourth ring, above the cage.
+ROOTS, ABOVE_SKIN, FINER = 0.9, 0.002, 60
 # So far from the opening the skin follows, in decimetres, and after so many steps smoothly.
 REACH, SMOOTHING_STEPS = 0.065, 40
 
@@ -105,8 +105,14 @@ class LidRings:
         edge = (1 - ROOTS) * ring + ROOTS * outer
         edge += ABOVE_SKIN * (edge - centre) / np.linalg.norm(edge - centre, axis=1, keepdims=True)
         closed = np.concatenate([edge, edge[:1]])
-        finer = catmull_rom(len(closed), np.linspace(0, len(edge), 20 * len(edge))) @ closed
+        finer = (
+            catmull_rom(len(closed), np.linspace(0, len(edge), FINER * len(edge), endpoint=False)) @ closed
+        )
         for grid in self.lashes[side]:
-            distance, nearest = cKDTree(finer).query(points[grid[0]])
-            share = np.clip(2 - 2 * distance / FARTHEST_ROOT, 0, 1)[:, None]
-            points[grid] += share * (finer[nearest] - points[grid[0]])
+            roots = points[grid[0]]
+            turn = np.unwrap(cKDTree(finer).query(roots)[1] * 2 * np.pi / len(finer))
+            # As far apart as they were: the nearest places would bunch in the corners.
+            steps = np.cumsum([0, *np.linalg.norm(np.diff(roots, axis=0), axis=1)])
+            turn = turn[0] + (turn[-1] - turn[0]) * steps / steps[-1]
+            place = np.round(turn * len(finer) / (2 * np.pi)).astype(int) % len(finer)
+            points[grid] += finer[place] - roots

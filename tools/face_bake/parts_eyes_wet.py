@@ -37,7 +37,8 @@ class Tears:
         columns = rings.columns[side]
         rim = base.points[columns[:, 0]]
         lower = columns[rim[:, 1] < rim[:, 1].mean()]
-        lower = lower[np.argsort(base.points[lower[:, 0], 0])]
+        # Not into the very corners, where it would turn back on itself.
+        lower = lower[np.argsort(base.points[lower[:, 0], 0])][1:-1]
         return np.searchsorted(np.unique(cage.faces), lower)
 
     def place(self, posed: Posed) -> np.ndarray:

@@ -54,7 +54,7 @@ SKIN = Finish(
     relief=True,
 )
 EYE = Finish(
-    wrap=(0.30, 0.28, 0.28),
+    wrap=(0.85, 0.78, 0.76),
     gloss=5.0,
     sharpness=520.0,
     sheen=0.0,
@@ -169,5 +169,7 @@ def finish_of(material: Material) -> Finish:
 
 def _hair_of(material: Material) -> Finish:
     """Hair that shines as its file says: coils scatter what straight hair throws back."""
-    gloss = HAIR.gloss * min(max(sum(material.specular), 0.0), 1.5) / 0.9
-    return replace(HAIR, gloss=gloss, one_sided="lock" in material.name.casefold())
+    shine = min(max(sum(material.specular), 0.0), 1.5) / 0.9
+    # Smooth locks lie on other hair, tufts of coils stand off it and are seen from behind too.
+    one_sided = "lock" in material.name.casefold() and shine > 0.5
+    return replace(HAIR, gloss=HAIR.gloss * shine, one_sided=one_sided)

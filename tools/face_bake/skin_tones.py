@@ -12,7 +12,7 @@ BLOOD = np.array([0.03, 0.30, 0.27], np.float32)
 # The axis of the head that the way around it is measured about.
 AXIS_Z = 0.35
 # Freckles, age spots and hairs: how far apart, in decimetres.
-FRECKLE, AGE_SPOT, HAIR = 0.034, 0.150, 0.0125
+FRECKLE, AGE_SPOT, HAIR = 0.034, 0.150, 0.0100
 
 
 def spot(points, centre, radii) -> np.ndarray:
@@ -121,7 +121,7 @@ def _beard(points, lips, noise: Noise) -> np.ndarray:
     # The upper edge runs from the sideburn down past the corner of the mouth.
     edge = np.interp(around, [0.0, 0.28, 0.40, 0.75, 1.15, 1.6], [6.50, 6.62, 6.70, 6.78, 6.98, 7.15])
     edge = edge + 0.035 * noise.layered(points, 9, 2)
-    jaw = smoothstep(edge + 0.07, edge - 0.13, y) * smoothstep(6.00, 6.30, y + 0.06 * noise(points, 8))
+    jaw = smoothstep(edge + 0.07, edge - 0.13, y) * smoothstep(6.02, 6.38, y + 0.03 * noise(points, 8))
     jaw = jaw * smoothstep(1.75, 1.45, around) * (z > AXIS_Z - 0.2)
     jaw = jaw * (1 - 0.35 * spot(points, (0.20, 6.50, 1.45), (0.09, 0.05, 0.2)))
     lip = smoothstep(6.685, 6.715, y) * smoothstep(6.865, 6.80, y + 0.10 * around)
@@ -139,7 +139,7 @@ def shaven(colour, points, lips, ears, noise: Noise, look: Look) -> np.ndarray:
     depth = look.stubble * beard * (1 + 0.15 * noise(points, 7))
     # Light that comes back from below the skin lacks its warm part where dark roots swallow it.
     colour = colour * (1 - 0.55 * depth[:, None] * np.array([0.42, 0.36, 0.27], np.float32))
-    slanted = points * np.array([1.0, 0.36, 1.0], np.float32)
+    slanted = points * np.array([1.0, 0.50, 1.0], np.float32)
     slanted = slanted + 0.10 * points[:, 1:2] * np.sign(points[:, :1]) * np.array([1.0, 0, 0], np.float32)
     for seed in (61, 62):
         nearest, _, number = cells_where(beard > 0.02, slanted, HAIR, seed)
@@ -147,5 +147,5 @@ def shaven(colour, points, lips, ears, noise: Noise, look: Look) -> np.ndarray:
         hair = np.array(look.hair, np.float32) * (0.62 if grey else 0.55)
         hair = np.clip(hair + (0.25 * (number[:, None] * 17.3 % 1) if grey else 0.0), 0, 1)
         seen = smoothstep(0.40, 0.14, nearest) * (number * 3.7 % 1 < 0.25 + 0.75 * beard)
-        colour = mix(colour, hair, np.clip(0.62 * look.stubble * smoothstep(0.05, 0.6, beard) * seen, 0, 1))
+        colour = mix(colour, hair, np.clip(0.54 * look.stubble * smoothstep(0.05, 0.6, beard) * seen, 0, 1))
     return colour

@@ -37,8 +37,9 @@ MOODS = tuple(name for name in EXPRESSIONS if name != "neutral")
 PAIRS = (
     *((f"eyeBlink{side}", f"{other}{side}") for side in SIDES for other in ("eyeLookDown", "eyeLookUp")),
     *((f"eyeBlink{side}", f"{other}{side}") for side in SIDES for other in ("eyeSquint", "cheekSquint")),
+    *((f"eyeBlink{side}", f"eyeWide{side}") for side in SIDES),
     *((f"eyeWide{side}", f"eyeLook{way}{side}") for side in SIDES for way in ("Up", "Down")),
-    *(("AU43", "AU6"), ("AU43", "AU7"), ("AU43", "AU64"), ("AU5", "AU63")),
+    *(("AU43", "AU5"), ("AU43", "AU6"), ("AU43", "AU7"), ("AU43", "AU63"), ("AU43", "AU64"), ("AU5", "AU63")),
     *((mood, "AU43") for mood in MOODS),
     *((mood, f"eyeBlink{side}") for mood in MOODS for side in SIDES),
 )

@@ -45,7 +45,7 @@ def test_all_people_and_expressions_have_one_topology():
     rig = facemorph.load("ada")
     for name in PEOPLE:
         shape = read_mesh(builtin_faces()[name] / "happy.obj")
-        assert difference(rig.neutral, shape) is None, "without texture coordinates, the polygons are the same"
+        assert difference(rig.neutral, shape) is None, "the polygons are the same"
 
 
 @pytest.mark.parametrize("name", PEOPLE)

@@ -91,7 +91,8 @@ def _rules() -> list[str]:
     for name in HALF_WAY:
         lines += ["", "[[correctives]]", f'shape = "{half_way(name)}"', f'hat = "{name}"']
     for one, other in PAIRS:
-        lines += ["", "[[correctives]]", f'shape = "{together(one, other)}"', f'product = ["{one}", "{other}"]']
+        lines += ["", "[[correctives]]", f'shape = "{together(one, other)}"']
+        lines += [f'product = ["{one}", "{other}"]']
     return lines
 
 

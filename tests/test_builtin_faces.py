@@ -18,7 +18,7 @@ from tests.conftest import ROOT
 
 PEOPLE = ("ada", "ben", "kofi", "mei", "omar", "zola")
 EXPRESSIONS = ("happy", "sad", "angry", "surprised", "disgusted", "afraid")
-GROUPS = {"skin", "mouth", "eye_L", "eye_R", "teeth_upper", "teeth_lower", "tongue", "lashes", "brows", "hair"}
+GROUPS = {"skin", "mouth", "eye_L", "eye_R", "teeth_upper", "teeth_lower", "tongue", "lashes", "brows"}
 UNITS = (1, 2, 4, 5, 6, 7, 9, 10, *range(12, 31), 34, 38, 43, 61, 62, 63, 64)
 
 

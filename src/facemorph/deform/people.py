@@ -108,7 +108,8 @@ class People:
             return difference_of_deltas
         # Whoever has no correctives moves straight: there is nothing of theirs to mix in.
         if self._base.shapes[own].set == CORRECTIVE:
-            return -self._base.deltas[own]
+            straight: Float32 = -self._base.deltas[own]
+            return straight
         raise UnknownNameError(f"shape of {name}", shape, places)
 
     def _rig(self, name: str) -> Rig:

@@ -15,6 +15,8 @@ from .skin_tones import aged, blood_of, freckled, melanin_of, paleness, shaven, 
 LIP_LIGHT = 0.68
 # How deep shade is in the stored colours, by channel.
 SHADE = (0.62, 0.86, 0.92)
+# and how deep that of hair is, which lies on the skin and not in it.
+HAIR_SHADE = (0.80, 0.85, 0.87)
 
 
 @dataclass(frozen=True)
@@ -46,8 +48,11 @@ def _lips(colour, canvas: Canvas, mottling, noise: Noise, look: Look) -> np.ndar
     return mix(colour, lips, smoothstep(0.05, 0.75, edge) * look.lip_strength)
 
 
-def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, age: float = 0.0, seed: int = 1) -> np.ndarray:
-    """sRGB colours (p, 3); `light` (p,) is the baked occlusion, age 0 young to 1 old."""
+def paint_skin(
+    canvas: Canvas, light: np.ndarray, hair: np.ndarray, look: Look, age: float = 0.0, seed: int = 1
+) -> np.ndarray:
+    """sRGB colours (p, 3); `light` (p,) is the baked occlusion and `hair` what hair leaves of it; age 0 young
+    to 1 old."""
     noise, points = Noise(seed), canvas.points
     broad, mottling = noise.layered(points, 2.5, 3), noise.layered(points + 7, 14, 4)
     colour = np.tile(np.array(look.skin, np.float32), (len(points), 1))
@@ -69,4 +74,5 @@ def paint_skin(canvas: Canvas, light: np.ndarray, look: Look, age: float = 0.0, 
     # Shade in skin is warm, for red light travels further through it, and fair skin throws light into its
     # own hollows.
     red, green, blue = np.array(SHADE) * (1 - 0.30 * paleness(look))
+    colour = colour * np.stack([hair**power for power in HAIR_SHADE], -1)
     return colour * np.stack([light**red, light**green, light**blue], -1)

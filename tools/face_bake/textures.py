@@ -19,14 +19,16 @@ FAR = 9.0
 # What the hair above leaves of the light on the scalp.
 ROOT_LIGHT = 0.62
 # What casts shade on the skin beside itself.
-SOLIDS = ("eye_L", "eye_R", "teeth_upper", "teeth_lower", "hair")
+SOLIDS = ("eye_L", "eye_R", "teeth_upper", "teeth_lower")
+# Hair leaves at least so much light on bare skin: it stays where it is while the skin below it moves.
+BESIDE_HAIR, HAIR_SOFTENED = 0.80, 8
 
 
 class Painter:
     """Paints skins of one size."""
 
     def __init__(self, head: Head, size: int):
-        self._lights: dict[Body, np.ndarray] = {}
+        self._lights: dict[Body, tuple[np.ndarray, np.ndarray]] = {}
         self._head, fine = head, head.fine
         self._triangles, uv_triangles = fine.triangles, fine.uv_triangles
         self._raster = Raster(fine.uv, uv_triangles, size)
@@ -56,7 +58,8 @@ class Painter:
 
     def skin(self, body: Body) -> Image.Image:
         """The skin of a person with the occlusion of the neutral face baked in."""
-        colours = paint_skin(self._canvas, self.light(body), body.person.look, age_of(body.person))
+        light, beside_hair = self._both_lights(body)
+        colours = paint_skin(self._canvas, light, beside_hair, body.person.look, age_of(body.person))
         return Image.fromarray(self._raster.picture(colours))
 
     @property
@@ -70,16 +73,27 @@ class Painter:
         return self._raster
 
     def light(self, body: Body) -> np.ndarray:
-        """How much light reaches each covered pixel (p,) of the neutral, 0..1."""
+        """How much light reaches each covered pixel (p,) of the neutral, 0..1, were there no hair."""
+        return self._both_lights(body)[0]
+
+    def _both_lights(self, body: Body) -> tuple[np.ndarray, np.ndarray]:
+        """That light, and the share (p,) of it that hair leaves on bare skin."""
         if body not in self._lights:
             self._lights = {body: self._light(body)}
         return self._lights[body]
 
-    def _light(self, body: Body) -> np.ndarray:
-        neutral = body.shaper.neutral
-        blockers = body.solids(neutral, SOLIDS)
+    def _light(self, body: Body) -> tuple[np.ndarray, np.ndarray]:
+        neutral, averaging = body.shaper.neutral, self._head.fine.averaging()
         skin = body.fine_skin(neutral)
-        light = visible_sky(skin, self._triangles, blockers, self._head.fine.averaging())
-        # Roots are painted dark already: shaded once more they would be black between the strands.
-        light = np.maximum(light, ROOT_LIGHT * smoothstep(3, 12, growth(self._base, body.person.look)))
-        return self._raster.sample(light, self._triangles)
+        bare, below = (
+            visible_sky(skin, self._triangles, body.solids(neutral, solids), averaging)
+            for solids in (SOLIDS, (*SOLIDS, "hair"))
+        )
+        share = np.maximum(below / np.maximum(bare, 1e-3), BESIDE_HAIR)
+        for _ in range(HAIR_SOFTENED):
+            share = averaging @ share
+        # The scalp is as dark as its roots are painted: shaded once more it would be black between strands.
+        inside = smoothstep(3, 12, growth(self._base, body.person.look))
+        light = bare + (np.minimum(bare, ROOT_LIGHT) - bare) * inside
+        share = share + (1 - share) * inside
+        return tuple(self._raster.sample(values, self._triangles) for values in (light, share))

@@ -16,6 +16,10 @@ uniform float spill;                   // how far light from the lips' edge spil
 const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
 const float PASSED_ON = 0.7;
 const float AT_LIPS = 0.50;                    // of the light is left where lips end and their lining begins
+const float GLARE = 0.45;                      // lights made strong for dark skin would let teeth glare
+const float UNDER_LIP = 0.62;                  // of the light is left right under the upper lip
+const float CORNER = 0.35;                     // of the light is kept away at the corners
+const float FALL_OFF = 0.75;                   // with depth, per half width of the mouth
 
 // How near the lips' edge a place is: 1 on it, 0 from `spill` on.
 float beside_lips(vec3 position) {
@@ -29,6 +33,24 @@ float beside_lips(vec3 position) {
         from = aperture[i];
     }
     return 1.0 - smoothstep(0.3 * spill, spill, sqrt(nearest) / aperture_size);
+}
+
+// What lips and cheeks keep away: most right under the upper lip and at the corners, and the deeper the more.
+float unshaded(vec3 position) {
+    vec3 way = position - aperture_centre;
+    float depth = -dot(way, aperture_normal) / aperture_size;
+    float nearest = 1e9;
+    for (int i = 0; i < APERTURE / 2; ++i) {
+        vec3 along = aperture[i + 1] - aperture[i];
+        vec3 off = position - aperture[i];
+        off -= along * clamp(dot(off, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+        nearest = min(nearest, dot(off, off));
+    }
+    float under_lip = mix(UNDER_LIP, 1.0, smoothstep(0.05, 0.45, sqrt(nearest) / aperture_size));
+    vec3 across = (aperture[APERTURE / 2] - aperture[0]) / (2.0 * aperture_size);
+    float corner = 1.0 - CORNER * smoothstep(0.3, 1.0, abs(dot(way, across)) / aperture_size);
+    float inside = smoothstep(-0.1, 0.15, depth);
+    return mix(1.0, under_lip * corner * exp(-FALL_OFF * max(depth - 0.35, 0.0)), inside);
 }
 
 vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
@@ -46,7 +68,10 @@ vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
     // What does not see the opening is lit by what does: the palate by the tongue.
     light += (0.3 * key_light + sky_light) * (PASSED_ON * reached.x * (1.0 - reached.x));
     light *= mix(FLESH, vec3(1.0), smoothstep(0.0, 0.9, reached.x));
-    vec3 shine = highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.15, 0.7, reached.x);
+    float left = spill > 0.0 ? mix(unshaded(surface_position), 1.0, beside_lips(surface_position))
+                             : unshaded(surface_position);
+    light *= left * mix(FLESH, vec3(1.0), smoothstep(0.0, 0.8, left)) / (1.0 + GLARE * light.g);
+    vec3 shine = left * highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.15, 0.7, reached.x);
     // Wet: what comes in at the opening mirrors at grazing angles.
     float edge = 1.0 - max(dot(n, view), 0.0);
     float mirrored = edge * edge * edge * edge * gloss * reached.x;

@@ -48,7 +48,8 @@ class SkinPictures:
             rule = placed.rule
             for side, area in placed.areas.items():
                 shapes = rule.shapes | {name + side.capitalize(): gain for name, gain in rule.sided.items()}
-                told = ", ".join(f"{name} = {gain:g}" for name, gain in shapes.items())
+                share = rule.young + (1 - rule.young) * age
+                told = ", ".join(f"{name} = {share * gain:.3g}" for name, gain in shapes.items())
                 lines += [
                     "",
                     "[[wrinkles]]",

@@ -14,6 +14,7 @@ class Rule:
 
     shapes   name -> gain; `sided` names get Left or Right behind them
     ageing   what an old face shows of it at rest
+    young    what part of each gain a young face shows
     crosses  whether it runs over the middle of the face, so that its sides meet there
     split    where the area begins and ends, as parts of the picture from its middle, for strokes that
              two rules share; `paints` tells which of them draws them
@@ -27,6 +28,7 @@ class Rule:
     shapes: dict
     sided: dict = field(default_factory=dict)
     ageing: float = 0.0
+    young: float = 1.0
     crosses: bool = False
     split: tuple | None = None
     paints: bool = True
@@ -59,7 +61,7 @@ RULES = (
         "frown",
         GREEN,
         strokes.FROWN,
-        {"AU4": 1.0, "AU9": 0.35, "angry": 1.0, "disgusted": 0.60, "sad": 0.55, "afraid": 0.55},
+        {"AU4": 1.0, "AU9": 0.35, "angry": 1.0, "disgusted": 0.25, "sad": 0.55, "afraid": 0.55},
         {"browDown": 1.0, "noseSneer": 0.35},
         ageing=0.30,
         crosses=True,
@@ -71,6 +73,7 @@ RULES = (
         {"AU6": 1.0, "AU7": 0.35, "AU12": 0.25, "AU9": 0.25, "happy": 0.95, "disgusted": 0.50, "angry": 0.20},
         {"cheekSquint": 1.0, "eyeSquint": 0.40, "mouthSmile": 0.25},
         ageing=0.34,
+        young=0.35,
     ),
     Rule(
         "nose",
@@ -92,6 +95,7 @@ RULES = (
         {"mouthSmile": 0.90, "mouthUpperUp": 0.80, "noseSneer": 0.65, "cheekSquint": 0.30,
          "mouthStretch": 0.30, "mouthDimple": 0.35},
         ageing=0.42,
+        young=0.5,
     ),
     Rule(
         "smile lines",
@@ -124,10 +128,11 @@ RULES = (
         "purse",
         RED,
         strokes.PURSE,
-        {"AU18": 1.0, "AU22": 0.40, "AU23": 0.60, "AU24": 0.55, "AU28": 0.50, "angry": 0.45,
+        {"AU18": 1.0, "AU22": 0.40, "AU23": 0.60, "AU24": 0.55, "AU28": 0.50, "angry": 0.12,
          "mouthPucker": 1.0, "mouthFunnel": 0.40, "mouthRollUpper": 0.40, "mouthShrugUpper": 0.40},
         {"mouthPress": 0.28},
         ageing=0.08,
+        young=0.4,
         crosses=True,
     ),
 )  # fmt: skip

@@ -19,7 +19,7 @@ from .tooth_shapes import (
 
 MILLIMETRE = 0.01
 # Contacts lie inside of the arch's outline, where a turn is shorter.
-SPREAD = 1.03
+SPREAD = 1.015
 # How far a tooth strays: turned and tilted (degrees), set in or out and longer or shorter (millimetres).
 STRAY = (2.6, 1.3, 0.14, 0.16)
 

@@ -48,9 +48,9 @@ def teeth_picture(look: Look, width: int = 896, height: int = 192) -> Image.Imag
     clouds = noise(np.stack([across * 1.5 + tooth * 9, crown * 3, v * 2], -1), 1)
     colours = colours * (1 + 0.010 * grain + 0.016 * clouds)[..., None]
     # Where crowns touch, and round their necks, little light comes in; what does is red from the gums.
-    contact = smoothstep(0.80, 1.0, np.abs(across)) * (1 - behind)
+    contact = smoothstep(0.76, 1.0, np.where(turn > 0.5, np.abs(4 * turn - 3), np.abs(across)))
     neck = smoothstep(0.16, 0.0, crown)
-    colours = colours * (1 - (0.34 * contact * smoothstep(1.02, 0.85, crown))[..., None] * [0.8, 1.0, 1.08])
+    colours = colours * (1 - (0.44 * contact * smoothstep(1.02, 0.85, crown))[..., None] * [0.8, 1.0, 1.08])
     colours = colours * (1 - (0.40 * neck)[..., None] * [0.55, 1.0, 1.05])
     # Cheeks and tongue keep light from the back teeth.
     hidden = 1 - (1 - 0.14 * behind) * (1 - 0.38 * smoothstep(3.0, 6.0, np.abs(tooth - 6.5)))
@@ -101,8 +101,8 @@ def tongue_picture(look: Look, size: int = 256) -> Image.Image:
         * (1 + 0.05 * papillae + 0.04 * cloud)[..., None]
         * (1 + dots[..., None] * [0.06, -0.05, -0.05])
     )
-    groove = np.exp(-((across / 0.07) ** 2)) * smoothstep(1.0, 0.85, v)
-    colours = colours * (1 - groove[..., None] * [0.14, 0.20, 0.20])
+    groove = np.exp(-(((across + 0.03 * cloud) / 0.17) ** 2)) * smoothstep(0.95, 0.6, v)
+    colours = colours * (1 - groove[..., None] * [0.08, 0.12, 0.12])
     below = smoothstep(0.085, 0.075, u)
     colours = _blend(colours, np.array([0.68, 0.30, 0.31]), below)
     return _picture(colours * (1 - 0.18 * look.gum_pigment * (1 - below))[..., None])

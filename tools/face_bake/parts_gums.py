@@ -7,7 +7,7 @@ from .mouth_fit import Arch
 
 TEETH, MOLARS = 14, 2
 FRONT_COLUMNS, MOLAR_COLUMNS = (-1.0, -0.75, -0.25, 0.25, 0.75), (-1.0, -0.4, 0.4)
-MARGIN, PAPILLA = ((0.25, 0.75), (0.10, 0.17)), 0.43
+MARGIN, PAPILLA = ((0.25, 0.75), (0.10, 0.17)), 0.36
 ROWS = 7
 # Away from the neck and outwards (millimetres) of the rows above the margin, at a tooth and between two.
 BULGE, ROOT, FLANGE = (1.5, 0.75, 0.25), (5.0, 0.5, -0.35), (10.5, -1.4, -1.8)

@@ -21,12 +21,12 @@ RINGS = 15
 # The middle line at fractions of its length: up from the lower teeth's edge and forward from their front.
 FRACTIONS = np.array([0, 0.25, 0.5, 0.72, 0.88, 1.0])
 AT_REST = np.array(
-    [[-0.18, -0.64], [-0.075, -0.50], [-0.060, -0.34], [-0.072, -0.215], [-0.074, -0.14], [-0.075, -0.095]]
+    [[-0.20, -0.64], [-0.115, -0.50], [-0.105, -0.34], [-0.115, -0.225], [-0.118, -0.155], [-0.120, -0.11]]
 )
 OUT = np.array([[-0.10, -0.64], [0.01, -0.42], [0.012, -0.17], [0.030, 0.02], [0.024, 0.15], [-0.006, 0.235]])
 # Half as thick, along the line: at rest and out. The last ring is rounded off into the tip.
 THICK = (
-    np.array([0.115, 0.115, 0.095, 0.062, 0.040, 0.022]),
+    np.array([0.115, 0.115, 0.095, 0.066, 0.048, 0.028]),
     np.array([0.115, 0.10, 0.06, 0.033, 0.029, 0.018]),
 )
 ROOT_WITH_JAW = 0.7
@@ -99,8 +99,8 @@ class Tongue:
     def _half_width(self, arch: Arch, z: np.ndarray, amount: float) -> np.ndarray:
         """Within the teeth at rest; out, as wide as a mouth lets it be; round at the tip."""
         room = arch.half_width_at(z) - 0.092
-        round_off = np.clip(1 - np.clip((self._along - 0.5) / 0.53, 0, 1) ** 2.5, 0, 1) ** 0.5
-        at_rest = np.clip(room, 0.05, 0.19) * np.maximum(round_off, 0.2)
+        round_off = np.clip(1 - np.clip((self._along - 0.42) / 0.61, 0, 1) ** 2.5, 0, 1) ** 0.5
+        at_rest = np.clip(room - 0.012, 0.05, 0.165) * np.maximum(round_off, 0.2)
         out = 0.155 * round_off
         return at_rest + amount * (out - at_rest)
 
@@ -110,7 +110,7 @@ class Tongue:
         x = np.abs(AROUND_X)
         arc = np.sqrt(np.maximum(1 - x**2.6, 0))
         arc[TOP_COLUMNS:] *= -0.9
-        groove = np.where(np.arange(len(x)) < TOP_COLUMNS, np.exp(-((x / 0.2) ** 2)), 0)
+        groove = np.where(np.arange(len(x)) < TOP_COLUMNS, np.exp(-((x / 0.4) ** 2)), 0)
         deep = np.interp(along, [0, 0.3, 0.8, 1], [0.2, 1, 0.8, 0.2])[:, None]
         return arc - 0.20 * deep * groove
 

@@ -102,7 +102,7 @@ class Crown:
         if not self._front:
             return _curve(heights, (-0.12, 0.80), (0.32, 0.95), (0.72, 1.0), (0.97, 0.86))
         corner = np.where(across > 0, 0.82, 0.89)
-        widths = _curve(heights, (-0.12, 0.79), (0.18, 0.88), (0.48, 0.965), (0.76, 1.0), (0.94, 0.965))
+        widths = _curve(heights, (-0.12, 0.88), (0.18, 0.95), (0.48, 0.99), (0.76, 1.0), (0.94, 0.955))
         return np.where(heights > 0.95, corner, widths)
 
     def _depth(self, across, heights, ahead, narrowing) -> np.ndarray:

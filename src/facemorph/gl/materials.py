@@ -78,7 +78,7 @@ TEETH = Finish(
     gloss=0.30,
     sharpness=150.0,
     sheen=0.0,
-    shade=0.96,
+    shade=1.0,
     catches=True,
     shader="mouth.frag",
     by_pixel=True,
@@ -92,7 +92,7 @@ GUM = Finish(
     shader="mouth.frag",
     by_pixel=True,
 )
-TONGUE = replace(GUM, gloss=0.28, sharpness=45.0)
+TONGUE = replace(GUM, gloss=0.22, sharpness=45.0)
 MOUTH = replace(GUM, gloss=0.05, sharpness=45.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
 HAIR = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag")

@@ -15,7 +15,7 @@ EXPRESSIONS = {
         "sculpt:upper": 0.45,
         "sculpt:part": 0.55,
         "arkit:jawOpen": 0.05,
-        "arkit:eyeSquint": 0.55,
+        "arkit:eyeSquint": 0.62,
         "sculpt:browOuter": 0.08,
     },
     "sad": {
@@ -50,8 +50,8 @@ EXPRESSIONS = {
     },
     "disgusted": {
         "sculpt:sneer": 1.5,
-        "sculpt:upper": 0.85,
-        "sculpt:lower": -0.55,
+        "sculpt:upper": 0.70,
+        "sculpt:lower": -0.80,
         "sculpt:browDown": 0.35,
         "sculpt:cheek": 0.75,
         "arkit:eyeSquint": 0.70,

@@ -20,16 +20,18 @@ CURVE = np.array(
 )
 ARCH = np.array([0, 0, 0.4, 1, 1, 0.5, 0])
 INNER = np.array([1, 0.7, 0.3, 0, 0, 0, 0])
-HALF_WIDTH = ([0, 0.12, 0.5, 0.75, 1], [0.022, 0.030, 0.027, 0.019, 0.006])
+HALF_WIDTH = ([0, 0.16, 0.5, 0.75, 1], [0.015, 0.028, 0.027, 0.019, 0.006])
 # Degrees from the brow's line: hairs stand up near the nose and lie along the brow further out; those of
 # the upper rows turn down towards the others.
-LEAN = ([0, 0.12, 0.3, 0.6, 1], [78, 58, 34, 18, 6])
+LEAN = ([0, 0.14, 0.3, 0.6, 1], [66, 54, 34, 18, 6])
 UPPER_TURN = ([0, 0.2, 0.4, 1], [12, 30, 34, 16])
 # Strips a brow: places along it times rows across it; each is so many pairs of vertices long.
 PLACES, ROWS, PAIRS = 20, 2, 3
 TILES = 4
 # How much longer than the step to the next strip, and how far strips stand off at root and tip, dm.
-LENGTH = ([0, 0.15, 0.6, 1], [0.050, 0.060, 0.056, 0.046])
+LENGTH = ([0, 0.15, 0.6, 1], [0.040, 0.066, 0.064, 0.050])
+# The shade below is darker and warmer than the hairs.
+UNDER = np.array([0.80, 0.66, 0.58], np.float32)
 LIFT = np.array([0.002, 0.009, 0.012])
 
 
@@ -137,7 +139,8 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
     # Tips lie over the roots of the next hairs outwards and upwards, so those come first.
     for row in reversed(range(ROWS)):
         u = (np.arange(PLACES)[::-1] + 0.5 * row + rng.uniform(0.0, 0.5, PLACES)) / PLACES
-        # The inner end frays: its hairs begin at any height.
+        # The inner end frays: its upper hairs begin further out, and all at any height.
+        u = u + 0.12 * row * (1 - u) ** 2
         fray = np.interp(u, [0, 0.25], [0.42, 0.16]) * (1 - 0.5 * row)
         across = (-0.60, np.interp(u, [0, 0.2], [-0.15, 0.10]))[row] + fray * rng.uniform(-1, 1, PLACES)
         lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
@@ -151,7 +154,7 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
         steps = [np.stack([np.cos(turn), np.sin(turn)], -1) * length[:, None] / 2 for turn in turns.T]
         steps = [step[:, :1] * tangent + step[:, 1:] * normal for step in steps]
         lines.append(np.stack([root, root + steps[0], root + steps[0] + steps[1]], 1))
-        halves.append(np.interp(u, [0, 0.06, 0.25, 1], [0.014, 0.022, 0.029, 0.015]) * look.brow_thickness)
+        halves.append(np.interp(u, [0, 0.10, 0.25, 1], [0.008, 0.022, 0.036, 0.020]) * look.brow_thickness)
     one, half = np.concatenate(lines), np.concatenate(halves)
     return np.concatenate([one, one * [-1, 1]]), np.concatenate([half, half])[:, None, None]
 
@@ -166,7 +169,7 @@ def _uv(count: int) -> np.ndarray:
     """Strips take turns in the picture's tiles; roots at its top. The right brow mirrors the left."""
     strips = []
     for k in range(count):
-        tile, inset = k * 3 % TILES, 0.02
+        tile, inset = (k * 3 + k // 5 + k // 7) % TILES, 0.02
         sides = (tile + inset) / TILES, (tile + 1 - inset) / TILES
         left, right = sides if k < count // 2 else sides[::-1]
         v = np.linspace(0.98, 0.02, PAIRS)
@@ -179,7 +182,11 @@ def paint_brows(colour, points, look: Look) -> np.ndarray:
     curve, u = BrowCurve(look), np.linspace(0, 1, 50)
     (x, y), half = curve.at(u), curve.half_width(u) * 0.8
     outline = np.concatenate([np.c_[x, y + half], np.c_[x, y - half][::-1]])
-    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.010).polygon(outline).sampler()
+    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.013).polygon(outline).sampler()
     front = points[:, 2] > 0.95
-    soft = (np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.72, 0, 1) * front)[:, None]
-    return colour * (1 - soft) + (0.42 * colour + 0.40 * np.array(look.brow, np.float32)) * soft
+    # The inner end begins with single hairs, which shade nothing.
+    begins = np.interp(np.abs(points[:, 0]), [x[0], x[0] + 0.13], [0.15, 1.0])
+    soft = np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.72, 0, 1) * begins
+    soft = (soft * front)[:, None]
+    under = np.array(look.brow, np.float32) * UNDER
+    return colour * (1 - soft) + (0.36 * colour + 0.42 * under) * soft

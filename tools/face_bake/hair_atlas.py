@@ -43,6 +43,8 @@ def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
     rows, wave = strokes.rows, texture.wave
     light = 0.24 + 0.26 * smoothstep(0.0, 0.30, rows)
     clump_tone = rng.uniform(-0.15, 0.15, CLUMPS)
+    # Short hair does not gather in locks.
+    gathers = 1.0 if texture.strand >= 1 else 0.35
     clump_swing = [swing(rows, rng, 7 * wave) for _ in range(CLUMPS)]
     short = texture.strand < 1
     strokes.opacity[:] = (
@@ -54,8 +56,8 @@ def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
         clump = int(x0 / WIDTH * CLUMPS)
         x = x0 + clump_swing[clump] + swing(rows, rng, 2.5)
         # Between two locks it is darker.
-        depth = 0.22 * abs((x0 / WIDTH * CLUMPS) % 1 - 0.5) * 2
-        tone = light + clump_tone[clump] + rng.normal(0, 0.13 * texture.contrast) - depth
+        depth = 0.22 * gathers * abs((x0 / WIDTH * CLUMPS) % 1 - 0.5) * 2
+        tone = light + gathers * clump_tone[clump] + rng.normal(0, 0.13 * texture.contrast) - depth
         width, opacity = np.full(SHEET_HEIGHT, rng.uniform(0.8, 2.4)), np.full(SHEET_HEIGHT, 0.8)
         if short:
             length = texture.strand * rng.uniform(0.7, 1.2)
@@ -100,20 +102,25 @@ def _coiled_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
     coils, radius = Coils(WIDTH, SHEET_HEIGHT, wraps=True), texture.curl
     # Coils gather in tufts that catch light on top and leave it dark between them.
     tufts = gaussian_filter(rng.standard_normal((SHEET_HEIGHT, WIDTH)), (9, 18), mode=("nearest", "wrap"))
-    tufts = np.clip(0.85 + 0.42 * tufts / tufts.std(), 0.22, 1.5)
+    even = texture.contrast
+    tufts = np.clip(0.85 + 0.42 * even * tufts / tufts.std(), 0.22, 1.5)
+    # Tighter coils are finer and more.
+    more, wide = max(1.0, (7 / radius) ** 2), np.clip(radius / 5, 0.9, 1.4)
     for layer, count in enumerate((1100, 1000, 800)):
-        for _ in range(count):
+        for _ in range(int(count * more)):
             start = rng.uniform(0, WIDTH), rng.uniform(-20, SHEET_HEIGHT)
             step = rng.normal(0, 1.2 * radius), rng.normal(0, 1.0 * radius)
             size = radius * rng.uniform(0.6, 1.2)
-            tone = (0.30, 0.50, 0.72)[layer] * rng.uniform(0.75, 1.2)
-            coils.coil(start, step, (size, size * 0.55), rng.uniform(1.5, 3.5), tone, 1.4, rng)
+            tone = (0.30, 0.30 + 0.20 * even, 0.30 + 0.42 * even)[layer] * rng.uniform(0.75, 1.2)
+            coils.coil(start, step, (size, size * 0.55), rng.uniform(1.5, 3.5), tone, wide, rng)
     strokes = coils.strokes()
     strokes.tone *= tufts
     strokes.opacity[:] = 1
     # Towards the tips only the upper coils are left, one by one.
     past = (strokes.rows - 1) / texture.ragged + 1
-    strokes.opacity *= smoothstep(0.0, 0.12, strokes.tone - 0.62 * np.clip(past, -1, 1)[:, None])
+    strokes.opacity *= smoothstep(
+        0.0, 0.12, strokes.tone - (0.30 + 0.32 * even) * np.clip(past, -1, 1)[:, None]
+    )
     strokes.opacity[-BORDER * 2 :] = 0
     return strokes
 
@@ -127,7 +134,7 @@ def _coiled_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Strok
         across = np.clip(rng.normal(0, 0.16), -0.34, 0.34) * (1.15 - 0.5 * out)
         start = width * (0.5 + across), 14 + out * (TILE_HEIGHT - 64)
         step = rng.normal(0, 5), rng.uniform(-16, 26)
-        tone = (0.40 + 0.5 * k / DENSITY[tile]) * rng.uniform(0.8, 1.2)
+        tone = (0.40 + 0.5 * k / DENSITY[tile]) * (0.3 + 0.7 * texture.contrast) * rng.uniform(0.8, 1.2)
         size = radius * rng.uniform(0.7, 1.25)
         coils.coil(start, step, (size, size * 2.2), rng.uniform(1.2, 2.6), tone, 1.5, rng)
     return coils.strokes()

@@ -16,6 +16,8 @@ ON_SKULL = 44
 BALL_CENTRE, BALL_SHAPE = np.array([0.0, 7.80, 0.45]), np.array([1.10, 0.97, 1.03])
 # A hanging sheet may draw in by so much for each decimetre that it falls.
 DRAW_IN = 0.10
+# How far the ends of a sheet that goes all around lie apart, dm.
+APART = 0.010
 # Above this height no ear reaches.
 TENT_TOP = 7.9
 
@@ -127,6 +129,9 @@ class Sheet:
         start = np.interp(np.minimum(azimuth, 360 - azimuth), *zip(*self.style.taper, strict=True))[:, None]
         thinning = 1 - 0.92 * np.clip((t - start) / (1.0001 - start), 0, 1)
         lift = (full * share + amount * lumps * np.clip(full / 0.06, 0, 1)) * thinning
+        # Where the sheet's ends reach over each other, one lies above.
+        between_ends = smoothstep(0.0, 0.2, t) * smoothstep(0.95, 0.6, t)
+        lift = lift + APART * smoothstep(0.06, 0.02, self.c)[:, None] * between_ends
         return base + np.maximum(lift, 0.006)[..., None] * outward
 
     def _normals(self) -> np.ndarray:

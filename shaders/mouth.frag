@@ -16,7 +16,7 @@ uniform float spill;                   // how far light from the lips' edge spil
 const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
 const float PASSED_ON = 0.7;
 const float AT_LIPS = 0.50;                    // of the light is left where lips end and their lining begins
-const float GLARE = 0.28;                      // lights made strong for dark skin would let teeth glare
+const float GLARE = 0.38;                      // lights made strong for dark skin would let teeth glare
 const float UNDER_LIP = 0.72;                  // of the light is left right under the upper lip
 const float CORNER = 0.35;                     // of the light is kept away at the corners
 const float FALL_OFF = 0.62;                   // with depth, per half width of the mouth

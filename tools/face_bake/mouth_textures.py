@@ -9,7 +9,7 @@ from .tooth_shapes import FRONT_AROUND, FRONT_COLUMNS
 
 TEETH = 14
 IVORY, ROOT, EDGE = np.array([0.96, 0.91, 0.80]), np.array([0.90, 0.79, 0.61]), np.array([0.88, 0.875, 0.84])
-AGED = np.array([0.965, 0.93, 0.84])
+AGED = np.array([0.965, 0.94, 0.88])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])
 PIGMENT = np.array([0.62, 0.52, 0.50])
 TONGUE, TONGUE_TIP = np.array([0.66, 0.38, 0.37]), np.array([0.65, 0.34, 0.34])

@@ -52,6 +52,7 @@ EXPRESSIONS = {
         "sculpt:sneer": 1.5,
         "sculpt:upper": 0.70,
         "sculpt:lower": -0.80,
+        "sculpt:browInner": 0.25,
         "sculpt:browDown": 0.35,
         "sculpt:cheek": 0.75,
         "arkit:eyeSquint": 0.70,

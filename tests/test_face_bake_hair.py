@@ -14,6 +14,7 @@ from tests.conftest import ROOT
 TOOLS = ROOT / "tools"
 if not (TOOLS / "face_bake").is_dir():
     pytest.skip("the bake's tools are not beside these tests", allow_module_level=True)
+pytest.importorskip("embreex", reason="the bake's own packages are not installed (pip install -e '.[bake]')")
 sys.path.insert(0, str(TOOLS))
 
 from face_bake.brows import BrowsPart  # noqa: E402

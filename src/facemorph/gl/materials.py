@@ -26,6 +26,7 @@ class Finish:
     shader     the fragment shader that draws it
     spill      in a mouth, how far light reaches it over the lips' edge, in half widths of the mouth
     one_sided  whether its inside need not be drawn: locks lie on other hair
+    behind     whether it is drawn before what else is seen through: hair shows between lashes
     by_pixel   whether its light must be worked out a pixel even where a vertex would do for others
     """
 
@@ -42,6 +43,7 @@ class Finish:
     spill: float = 0.0
     by_pixel: bool = False
     one_sided: bool = False
+    behind: bool = False
 
 
 SKIN = Finish(
@@ -95,7 +97,7 @@ GUM = Finish(
 TONGUE = replace(GUM, gloss=0.22, sharpness=45.0)
 MOUTH = replace(GUM, gloss=0.05, sharpness=45.0, spill=0.5)
 LASH = Finish(wrap=(0.20, 0.20, 0.20), gloss=0.0, sharpness=8.0, sheen=0.0)
-HAIR = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag")
+HAIR = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.85, sharpness=40.0, sheen=0.9, shader="hair.frag", behind=True)
 BROW = Finish(wrap=(0.36, 0.30, 0.26), gloss=0.15, sharpness=20.0, sheen=0.0, shader="hair.frag")
 CLAY = Finish(wrap=(0.22, 0.20, 0.18), gloss=0.05, sharpness=18.0, sheen=1.0)
 

@@ -101,9 +101,11 @@ class Painter:
         self._ctx.enable(self._ctx.BLEND)
         self._ctx.blend_func = _PREMULTIPLIED
         clear = [part for part in surface.parts if self._opacity(part) < 1.0]
-        both = [part for part in clear if not finish_of(part.material).one_sided]
-        self._draw_parts(surface, both, look, scene, _INSIDE)
-        self._draw_parts(surface, clear, look, scene, _OUTSIDE)
+        hair = [part for part in clear if finish_of(part.material).behind]
+        for parts in (hair, [part for part in clear if part not in hair]):
+            both = [part for part in parts if not finish_of(part.material).one_sided]
+            self._draw_parts(surface, both, look, scene, _INSIDE)
+            self._draw_parts(surface, parts, look, scene, _OUTSIDE)
         if look.wire or look.shading == "wire":
             self._draw_wire(surface, scene)
 

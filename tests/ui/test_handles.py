@@ -285,3 +285,12 @@ def test_commands_put_points_to_rest_and_take_them_away(page: Offscreen) -> None
     assert app.controls.handles.handles == (Handle(vertex),)
     page.run("Handles: clear")
     assert app.controls.handles.handles == ()
+
+
+def test_points_that_cannot_be_written_are_told_and_stay(window: Offscreen, tmp_path: Path) -> None:
+    app = window.app
+    handles.change(app, HandleSet((Handle(0),)))
+    (tmp_path / "taken").write_text("a file, no folder")
+    handles.save(app, tmp_path / "taken" / "points.json")
+    assert any("The points were not saved" in message.text for message in app.messages.shown)
+    assert app.controls.handles.handles == (Handle(0),)

@@ -81,15 +81,16 @@ def _both(one: dict, other: dict) -> dict:
     return {term: one.get(term, 0) + other.get(term, 0) for term in dict.fromkeys([*one, *other])}
 
 
-def correctives(body: Body, arkit_names: list[str]) -> list[MadeCorrective]:
-    """Those of one person: the same for everybody, in the same order."""
-    recipes = recipes_by_name(arkit_names)
+def correctives(body: Body, recipes: dict, moves: dict[str, np.ndarray]) -> list[MadeCorrective]:
+    """Those of one person: the same for everybody, in the same order.
+
+    recipes: of every shape by name; moves: where each leads at full, (V, 3) in centimetres.
+    """
     neutral = body.positions(body.shaper.neutral)
 
     def at(recipe: dict) -> np.ndarray:
         return body.positions(body.shaper.shape(recipe)) - neutral
 
-    moves = {name: at(recipe) for name, recipe in recipes.items()}
     halves = [
         MadeCorrective(half_way(name), at(_scaled(recipes[name], 0.5)) - 0.5 * moves[name])
         for name in HALF_WAY

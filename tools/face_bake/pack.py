@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from .correctives import SMALLEST as SMALLEST_CORRECTION
-from .correctives import correctives
+from .correctives import correctives, recipes_by_name
 from .head import Body
 from .recipes import FACS, arkit_label, arkit_recipe
 
@@ -34,8 +34,10 @@ def write_shapes(path: Path, body: Body, arkit_names: list[str], regions: dict):
     """regions: name -> weights (V,) uint8."""
     neutral = body.positions(body.shaper.neutral)
     listed = units(arkit_names)
-    packed = [quantise(body.positions(body.shaper.shape(recipe)) - neutral) for *_, recipe in listed]
-    made = correctives(body, arkit_names)
+    recipes = recipes_by_name(arkit_names)
+    moves = {name: body.positions(body.shaper.shape(recipe)) - neutral for name, recipe in recipes.items()}
+    packed = [quantise(moves[name]) for name, *_ in listed]
+    made = correctives(body, recipes, moves)
     listed += [(one.name, one.name, "corrective", {}) for one in made]
     packed += [quantise(one.offsets, SMALLEST_CORRECTION) for one in made]
     counts = [len(index) for index, _, _ in packed]

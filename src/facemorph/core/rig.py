@@ -91,7 +91,8 @@ class Rig:
             if shape.name in seen or shape.name == NEUTRAL:
                 raise MeshDataError(f"two shapes are called {shape.name!r}; every shape needs its own name.")
             seen.add(shape.name)
-        Activation(self.names, self.correctives)
+        # Bound now, so that a rule over a shape that is not there is told here.
+        _ = self._activation
         WrinkleWeights(self.names, self.wrinkles)
 
     def __repr__(self) -> str:

@@ -8,10 +8,12 @@ from pathlib import Path
 from facemorph.core.emotion import PAPER_POLES
 from facemorph.core.emotion_path import Recorder
 from facemorph.errors import FacemorphError
+from facemorph.ui import files
 from facemorph.ui.actions import tell_error
 from facemorph.ui.emotion import choices, poles_of, put, usable
 from facemorph.ui.emotion_poles import set_poles
 from facemorph.ui.history import Snapshot
+from facemorph.ui.paths import suffixed
 from facemorph.ui.state import App
 
 
@@ -103,13 +105,13 @@ def save_path(app: App, path: Path) -> None:
     recorded = app.pages.emotion.path
     if recorded is None:
         return
-    path = path if path.suffix.lower() == ".json" else path.with_name(path.name + ".json")
-    try:
-        write_emotion_path(path, recorded, poles_of(app) or PAPER_POLES)
-    except FacemorphError as error:
-        tell_error(app, "The path was not saved", error)
-        return
-    app.messages.tell(f"Saved {path}")
+    poles = poles_of(app) or PAPER_POLES
+    files.keep(
+        app,
+        suffixed(path, ".json"),
+        "The path was not saved",
+        lambda goal: write_emotion_path(goal, recorded, poles),
+    )
 
 
 def open_path(app: App, path: Path) -> None:

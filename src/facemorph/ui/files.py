@@ -8,8 +8,10 @@ from pathlib import Path
 from facemorph.core.arrays import UInt8
 from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
+from facemorph.errors import FacemorphError
 from facemorph.gl.heat import Legend
 from facemorph.ui.actions import tell_error
+from facemorph.ui.paths import suffixed
 from facemorph.ui.state import App, Face
 
 MESH_SUFFIXES = (".obj", ".ply", ".stl", ".gltf", ".glb", ".off")
@@ -56,7 +58,7 @@ def export_mesh(app: App, path: Path) -> None:
     if rig is None:
         return
     scene = app.scene()
-    path = path if path.suffix.lower() == ".obj" else path.with_name(path.name + ".obj")
+    path = suffixed(path, ".obj")
 
     def work(progress: Progress) -> Path:
         from facemorph.api import export_positions
@@ -71,7 +73,7 @@ def export_mesh(app: App, path: Path) -> None:
 
 def save_picture(app: App, path: Path) -> None:
     """Save the face as the next frame shows it."""
-    app.picture_path = path if path.suffix.lower() == ".png" else path.with_name(path.name + ".png")
+    app.picture_path = suffixed(path, ".png")
 
 
 def write_picture(app: App, path: Path, pixels: UInt8, legend: Legend | None = None) -> None:
@@ -97,6 +99,16 @@ def _failing(app: App, path: Path) -> Callable[[BaseException], None]:
         tell_error(app, f"{path.name} was not saved", error)
 
     return failed
+
+
+def keep(app: App, path: Path, unsaved: str, write: Callable[[Path], object]) -> None:
+    """Write to `path` what a page keeps, at once; where that fails, say so in the words `unsaved`."""
+    try:
+        write(path)
+    except FacemorphError as error:
+        tell_error(app, unsaved, error)
+        return
+    _saved(app, path)
 
 
 def short(paths: tuple[str, ...]) -> str:

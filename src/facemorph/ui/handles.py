@@ -15,7 +15,9 @@ from facemorph.deform.handles import STILL, Handle, HandleSet, Vector, mirrored,
 from facemorph.deform.rbf import COINCIDENT
 from facemorph.deform.sides import midline
 from facemorph.errors import FacemorphError
+from facemorph.ui import files
 from facemorph.ui.actions import tell_error
+from facemorph.ui.paths import suffixed
 from facemorph.ui.state import App, Face
 
 MADE = "made"
@@ -133,15 +135,15 @@ def save(app: App, path: Path) -> None:
     """Keep the points in a file."""
     from facemorph.io.handles_file import write_handles
 
-    if app.rig is None:
+    rig = app.rig
+    if rig is None:
         return
-    path = path if path.suffix.lower() == ".json" else path.with_name(path.name + ".json")
-    try:
-        write_handles(path, app.controls.handles, app.rig)
-    except FacemorphError as error:
-        tell_error(app, "The points were not saved", error)
-        return
-    app.messages.tell(f"Saved {path}")
+    files.keep(
+        app,
+        suffixed(path, ".json"),
+        "The points were not saved",
+        lambda goal: write_handles(goal, app.controls.handles, rig),
+    )
 
 
 def load(app: App, path: Path) -> None:

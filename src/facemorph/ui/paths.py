@@ -90,3 +90,8 @@ def completed(text: str, found: list[Entry]) -> str:
     )
     longer = names[0][:agreed]
     return longer if len(longer) > len(str(expanded(text))) or len(found) == 1 else text
+
+
+def suffixed(path: Path, suffix: str) -> Path:
+    """The file that a chosen name stands for: the suffix is added where it is missing."""
+    return path if path.suffix.lower() == suffix else path.with_name(path.name + suffix)

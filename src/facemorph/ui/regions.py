@@ -14,7 +14,9 @@ from facemorph.core.rig import EXPRESSION, Rig
 from facemorph.deform.regions import RegionControl, RegionSet, painted
 from facemorph.deform.sides import midline
 from facemorph.errors import FacemorphError
+from facemorph.ui import files
 from facemorph.ui.actions import tell_error
+from facemorph.ui.paths import suffixed
 from facemorph.ui.state import App
 
 NAMES = ("brows", "eyes", "nose", "cheeks", "mouth", "jaw")
@@ -116,16 +118,15 @@ def save(app: App, path: Path) -> None:
     """Keep the regions in use in a file."""
     from facemorph.io import write_regions
 
-    present = region_set(app)
-    if app.rig is None or present is None:
+    rig, present = app.rig, region_set(app)
+    if rig is None or present is None:
         return
-    path = path if path.suffix.lower() == ".npz" else path.with_name(path.name + ".npz")
-    try:
-        write_regions(path, present, app.rig)
-    except FacemorphError as error:
-        tell_error(app, "The regions were not saved", error)
-        return
-    app.messages.tell(f"Saved {path}")
+    files.keep(
+        app,
+        suffixed(path, ".npz"),
+        "The regions were not saved",
+        lambda goal: write_regions(goal, present, rig),
+    )
 
 
 def load(app: App, path: Path) -> None:

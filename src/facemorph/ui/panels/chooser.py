@@ -11,7 +11,7 @@ from imgui_bundle import ImVec2, imgui
 from facemorph.ui import dialogs, emotion_paths, files, fonts, handles, people, regions
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
-from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home
+from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home, suffixed
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
@@ -155,9 +155,7 @@ def _chosen(app: App, goal: Path) -> None:
 
 
 def _written(purpose: str, goal: Path) -> Path:
-    """The file that a chosen name stands for: the suffix is added where it is missing."""
-    suffix = _SUFFIXES[purpose][0]
-    return goal if goal.suffix.lower() == suffix else goal.with_name(goal.name + suffix)
+    return suffixed(goal, _SUFFIXES[purpose][0])
 
 
 def _take(app: App, purpose: str, paths: list[Path]) -> None:

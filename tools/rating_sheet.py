@@ -31,6 +31,7 @@ from facemorph.core.rig import Rig
 from facemorph.errors import FacemorphError, OptionError, OutputError
 from facemorph.gl.labels import as_image, font
 from facemorph.io.atomic import replacing
+from rating_framing import face_camera, face_points
 from rating_scores import KEY_COLUMNS, Tile, rated, read_answers, read_key, report
 
 FACES = ("ada", "ben", "mei", "kofi", "zola", "omar")
@@ -38,7 +39,7 @@ EMOTIONS = ("happy", "sad", "angry", "surprised", "disgusted", "afraid")
 INTENSITIES = ("1", "0.5", "0.25")
 VIEWS = ("front", "three-quarter")
 MOST_TILES = 3000
-TILE = (320, 340)
+TILE = (400, 440)
 STRIP = 34
 PAPER, INK = 255, 0
 
@@ -63,12 +64,24 @@ def tiles_of(
     return [Tile(number, 1 + (number - 1) // per_page, *what) for number, what in enumerate(shown, start=1)]
 
 
-def pictures(tiles: Sequence[Tile], rigs: dict[str, Rig], look: Look) -> Iterator[tuple[Tile, UInt8]]:
-    """Each tile with its picture, face by face: loading one costs more than drawing it."""
+def pictures(
+    tiles: Sequence[Tile], rigs: dict[str, Rig], emotions: Sequence[str], look: Look
+) -> Iterator[tuple[Tile, UInt8]]:
+    """Each tile with its picture, face by face: loading one costs more than drawing it.
+
+    A face has one camera a view, so that its size tells nothing.
+    """
     with facemorph.Offscreen() as screen:
-        for tile in sorted(tiles, key=lambda tile: (tile.face, tile.number)):
-            pose = Pose.between(NEUTRAL, tile.emotion, tile.intensity or 1.0)
-            yield tile, screen.render(rigs[tile.face], pose, size=TILE, camera=tile.view, look=look)
+        for (face, view), group in itertools.groupby(sorted(tiles, key=_face_and_view), key=_face_and_view):
+            rig = rigs[face]
+            camera = face_camera(rig, face_points(rig, emotions), view, TILE[0] / TILE[1])
+            for tile in group:
+                pose = Pose.between(NEUTRAL, tile.emotion, tile.intensity or 1.0)
+                yield tile, screen.render(rig, pose, size=TILE, camera=camera, look=look)
+
+
+def _face_and_view(tile: Tile) -> tuple[str, str]:
+    return tile.face, tile.view
 
 
 def pages(tiles: Sequence[Tile], drawn: Iterator[tuple[Tile, UInt8]], per_page: int) -> list[UInt8]:
@@ -117,7 +130,9 @@ def make(options: argparse.Namespace) -> int:
     for face, emotion in itertools.product(faces, set(emotions) - {NEUTRAL}):
         rigs[face].shape(emotion)
     out.mkdir(parents=True, exist_ok=True)
-    for number, page in enumerate(pages(tiles, pictures(tiles, rigs, look), options.per_page), start=1):
+    for number, page in enumerate(
+        pages(tiles, pictures(tiles, rigs, emotions, look), options.per_page), start=1
+    ):
         _tell(facemorph.save_picture(out / f"page-{number:02}.png", page))
     _tell(_write(out / "answers.csv", _table([("number", "label"), *((tile.number, "") for tile in tiles)])))
     key = [(t.number, t.page, t.face, t.emotion, f"{t.intensity:g}", t.view) for t in tiles]
@@ -188,7 +203,7 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument(
         "--equal-luminance", nargs="?", type=float, const=LUMINANCE, metavar="Y", help="of the skin"
     )
-    one.add_argument("--per-page", type=int, default=20, metavar="N", help="pictures a page (default: 20)")
+    one.add_argument("--per-page", type=int, default=12, metavar="N", help="pictures a page (default: 12)")
     two = verbs.add_parser("score", help="print a confusion table and the share right per intensity")
     two.set_defaults(run=score)
     two.add_argument("key", type=Path, metavar="KEY", help="the study's key.csv")

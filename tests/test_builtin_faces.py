@@ -135,3 +135,15 @@ def test_the_faces_stay_within_60_megabytes():
     faces = data_folder("faces")
     assert faces == ROOT / "assets" / "faces"
     assert sum(path.stat().st_size for path in faces.rglob("*") if path.is_file()) < 60e6
+
+
+@pytest.mark.parametrize("name", PEOPLE)
+def test_the_frame_shows_hair_and_chin_and_leaves_out_where_the_bust_ends(rigs, name):
+    rig = rigs[name]
+    if rig.info.frame is None:
+        pytest.skip("these faces were made before they had frames")
+    (_, low, _), (_, high, _) = rig.frame
+    bottom, top = rig.neutral.bounds[:, 1]
+    chin = min(rig.neutral.positions[landmark.vertex][1] for landmark in rig.info.landmarks)
+    assert high == top
+    assert bottom < low < chin - 1.0

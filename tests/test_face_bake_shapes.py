@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import tomllib
 from types import SimpleNamespace
 
 import numpy as np
@@ -19,6 +20,7 @@ from face_bake.creases import Creases  # noqa: E402
 from face_bake.recipes import EXPRESSIONS, FACS, arkit_recipe  # noqa: E402
 from face_bake.sculpt import signed_distance  # noqa: E402
 from face_bake.surface import CageSurface  # noqa: E402
+from face_bake.write import NECK, frame_lines  # noqa: E402
 
 SIDE = 9
 
@@ -106,3 +108,13 @@ def test_the_smiles_of_the_recipes_raise_cheeks():
     assert EXPRESSIONS["happy"]["sculpt:cheek"] > 0.5
     assert FACS["AU6"][1].keys() & EXPRESSIONS["happy"].keys() >= {"sculpt:cheek"}
     assert FACS["AU12"][1].keys() & EXPRESSIONS["happy"].keys() >= {"sculpt:smile"}
+
+
+def test_a_picture_shows_the_head_and_some_neck_and_leaves_the_shoulders_out() -> None:
+    # A head from -10 to 10 on a bust that is wider and goes down to -20; the chin is at -8.
+    points = np.array([[-7, -10, -9], [7, 10, 9], [0, -8, 4], [-15, -20, -5], [15, -20, 5]], float)
+    landmarks = [SimpleNamespace(vertex=vertex) for vertex in (1, 2)]
+    lines = frame_lines(points, landmarks)
+    frame = tomllib.loads("\n".join(lines))["frame"]
+    assert frame["low"] == [-7.0, round(-8 - NECK * 18, 1), -9.0]
+    assert frame["high"] == [7.0, 10.0, 9.0]

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from facemorph.core.correctives import Corrective
 from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Labels, Mesh
 from facemorph.core.reorder import reorder, same_polygons, vertex_order
 from facemorph.core.triangles import triangulated
+from facemorph.core.wrinkles import Wrinkle
 from facemorph.errors import CorrespondenceError, MeshFileError, OutputError
 from facemorph.io import check_folder, load_rig, read_mesh, repair_folder, write_obj
 from facemorph.resources import builtin_faces
@@ -183,7 +185,10 @@ def a_whole_face(folder: Path) -> Mesh:
     text = 'name = "A \\"B\\" \\u007f"\nunit = "cm"\nneutral = "meshes/neutral.obj"\nshapes = "more.npz"\n'
     for name, file in entries.items():
         text += f"[[expressions]]\nname = '{name}'\nlabel = '{name}!'\nfile = '{file}'\n"
-    written(folder, text + "[[landmarks]]\nname = 'nose'\nvertex = 3\nmpeg4 = '9.3'\n", "face.toml")
+    text += "[[landmarks]]\nname = 'nose'\nvertex = 3\nmpeg4 = '9.3'\n"
+    text += "[[wrinkles]]\nname = 'w'\nset = 'red'\narea = [0, 0.5, 1, 1]\nshapes = { happy = 0.5 }\n"
+    text += "[[correctives]]\nshape = 'AU1'\nproduct = ['happy', 'jawOpen']\n"
+    written(folder, text + "[frame]\nlow = [0, 0, -1]\nhigh = [2, 1.5, 1]\n", "face.toml")
     return shape
 
 
@@ -209,6 +214,9 @@ def test_a_repaired_face_opens_with_all_that_belongs_to_it_and_without_what_is_b
     assert rig.names == ("happy", "good", "AU1", "jawOpen")
     assert [s.label for s in rig.shapes[:2]] == ["happy!", "good!"]
     assert (rig.info.name, rig.info.unit, rig.info.landmarks[0].mpeg4) == ('A "B" \x7f', "cm", "9.3")
+    assert rig.info.frame == ((0.0, 0.0, -1.0), (2.0, 1.5, 1.0))
+    assert rig.wrinkles == (Wrinkle("w", "red", (0.0, 0.5, 1.0, 1.0), shapes={"happy": 0.5}),)
+    assert rig.correctives == (Corrective("AU1", ("happy", "jawOpen")),)
     assert rig.neutral.materials["skin"].texture == out / "meshes" / "maps" / "skin.png"
     np.testing.assert_allclose(rig.posed({"happy": 1.0}).positions, shape.positions, atol=1e-6)
     assert read_mesh(out / "meshes" / "happy.obj").materials["skin"].texture is not None

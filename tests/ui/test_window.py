@@ -574,3 +574,20 @@ def test_no_buttons_words_are_cut_off_in_the_narrowest_panel(
         window.frames(3)
     assert [part for part in drawn if not all(part[1:])] == []
     assert len({label for label, *_ in drawn}) > 8
+
+
+def test_the_first_view_and_the_key_f_show_what_the_face_says(opengl: None) -> None:
+    ball = ball_rig()
+    framed = replace(ball, info=replace(ball.info, frame=((-7.0, -4.0, -9.0), (7.0, 11.0, 9.0))))
+    with Offscreen(framed) as window:
+        app = window.app
+        first = Camera.of_face(framed, "front", app.views()[0].aspect)
+        assert app.camera == first
+        assert app.camera.target[1] > 3.0
+        window.move(*FACE)
+        window.wheel(3)
+        assert app.camera != first
+        window.key("F")
+        assert app.camera == first
+        window.run("Left side")
+        assert app.camera == Camera.of_face(framed, "left", app.views()[0].aspect)

@@ -15,7 +15,7 @@ from .regions import build_regions
 from .skin_pictures import SkinPictures
 from .source import Source
 from .textures import Painter
-from .write import layout_text, write_mtl, write_obj, write_toml
+from .write import frame_lines, layout_text, write_mtl, write_obj, write_toml
 
 SKIN_SIZE = 2048
 JPEG_QUALITY = 90
@@ -40,6 +40,7 @@ class Bakery:
         folder = out / name
         folder.mkdir(parents=True, exist_ok=True)
         body = Body(self._head, person)
+        neutral = body.positions(body.shaper.shape(EXPRESSIONS["neutral"]))
         for expression, recipe in EXPRESSIONS.items():
             points = body.positions(body.shaper.shape(recipe))
             layout = self._shape_layout if recipe else self._neutral_layout
@@ -48,7 +49,14 @@ class Bakery:
         write_mtl(folder / "face.mtl", person)
         expressions = [name for name in EXPRESSIONS if name != "neutral"]
         wrinkles = self._skin_pictures.toml_lines(person)
-        write_toml(folder / "face.toml", person, expressions, self._landmarks, wrinkles)
+        write_toml(
+            folder / "face.toml",
+            person,
+            expressions,
+            self._landmarks,
+            wrinkles,
+            frame_lines(neutral, self._landmarks),
+        )
         self._pictures(person, body, folder)
 
     def _pictures(self, person: Person, body: Body, folder: Path):

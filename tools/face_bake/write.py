@@ -30,6 +30,9 @@ MATERIALS = {
 # These have a colour of each person's own; their pictures' opacity lets through what lies behind them.
 SEE_THROUGH = ("lash", "brow", "hair", "hair_lock")
 
+# How much below the chin a picture still shows, as a part of the head's height.
+NECK = 0.15
+
 # Of materials that let light through.
 OPACITY = {"tear": 0.3}
 
@@ -96,7 +99,23 @@ def _rules() -> list[str]:
     return lines
 
 
-def write_toml(path: Path, person: Person, expressions: list[str], landmarks: list, wrinkles: list[str]):
+def frame_lines(points: np.ndarray, landmarks: list) -> list[str]:
+    """What a picture shows of a neutral (V, 3): the head, the neck, and where the shoulders begin.
+
+    The bust fades away below; there a picture's own edge is the better end.
+    """
+    chin = min(points[landmark.vertex][1] for landmark in landmarks)
+    end = chin - NECK * (points[:, 1].max() - chin)
+    seen = points[points[:, 1] >= end]
+    low, high = (np.floor(seen.min(axis=0) * 10) / 10, np.ceil(seen.max(axis=0) * 10) / 10)
+    low[1] = np.round(end, 1)
+    corners = [", ".join(f"{value + 0.0:.1f}" for value in corner.tolist()) for corner in (low, high)]
+    return ["", "[frame]", f"low = [{corners[0]}]", f"high = [{corners[1]}]"]
+
+
+def write_toml(
+    path: Path, person: Person, expressions: list[str], landmarks: list, wrinkles: list[str], frame: list[str]
+):
     lines = [
         f'name = "{person.name}"',
         f'description = "{person.description}"',
@@ -105,6 +124,7 @@ def write_toml(path: Path, person: Person, expressions: list[str], landmarks: li
         'unit = "cm"',
         'neutral = "neutral.obj"',
         'shapes = "shapes.npz"',
+        *frame,
     ]
     for name in expressions:
         lines += [

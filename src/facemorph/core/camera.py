@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64
 from facemorph.errors import OptionError
+
+if TYPE_CHECKING:
+    from facemorph.core.rig import Rig
 
 # Azimuth turns the camera round the face towards its left (+X), elevation lifts it; degrees.
 DIRECTIONS: dict[str, tuple[float, float]] = {
@@ -40,6 +44,12 @@ class Camera:
         x, y, z = (float(value) for value in (low + high) / 2.0)
         camera = cls((x, y, z), azimuth, elevation, 1.0, scene_radius=radius)
         return replace(camera, distance=camera._distance_to_see(size, aspect))
+
+    @classmethod
+    def of_face(cls, rig: Rig, direction: str = "front", aspect: float = 1.0) -> Camera:
+        """The usual view of a face: its frame (`Rig.frame`), with room to look at all of it."""
+        camera = cls.framing(rig.frame, direction, aspect)
+        return replace(camera, scene_radius=cls.framing(rig.neutral.bounds).scene_radius)
 
     def _distance_to_see(self, size: Float64, aspect: float) -> float:
         """The nearest distance from which a centred box of `size` fits, with a small margin."""

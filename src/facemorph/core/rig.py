@@ -19,6 +19,7 @@ from facemorph.core.wrinkles import Wrinkle, WrinkleWeights
 from facemorph.errors import MeshDataError, UnknownNameError
 
 EXPRESSION = "expression"
+Box = tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,12 @@ class Regions:
 
 @dataclass(frozen=True)
 class FaceInfo:
-    """What a face folder says of itself. `unit` is a length ("cm", "mm", "m"), or "" where it says none."""
+    """What a face folder says of itself.
+
+    unit     a length ("cm", "mm", "m"), or "" where it says none
+    frame    the lowest and the highest corner of the box that a picture of the face should show, model
+             units, or None where it says none
+    """
 
     name: str
     description: str = ""
@@ -62,6 +68,7 @@ class FaceInfo:
     licence: str = ""
     unit: str = ""
     landmarks: tuple[Landmark, ...] = ()
+    frame: Box | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -94,6 +101,14 @@ class Rig:
         # Bound now, so that a rule over a shape that is not there is told here.
         _ = self._activation
         WrinkleWeights(self.names, self.wrinkles)
+
+    @property
+    def frame(self) -> Float32:
+        """The box (2, 3) that a picture shows: what the face says, as far as there is mesh, or all of it."""
+        low, high = bounds = self.neutral.bounds
+        if self.info.frame is None:
+            return bounds
+        return np.clip(np.asarray(self.info.frame, np.float32), low, high)
 
     def __repr__(self) -> str:
         return f"<Rig {self.info.name!r}: {self.neutral.vertex_count:,} vertices, {len(self.shapes)} shapes>"

@@ -49,14 +49,14 @@ class Offscreen:
         """A picture of `rig` as (H, W, 4) uint8 sRGB with straight alpha, top row first; `size` is (W, H).
 
         pose     a `Pose`, a whole `Scene`, or weights by shape name
-        camera   a `Camera`, or a direction ("front", "AZIMUTH,ELEVATION") that frames the neutral face
+        camera   a `Camera`, or a direction ("front", "AZIMUTH,ELEVATION") from which the face's frame is seen
         legend   whether a heat map gets its legend drawn in
 
         Raises what `Renderer.draw` does, `OptionError` and `GraphicsError`.
         """
         width, height = checked_size(size)
         if isinstance(camera, str):
-            camera = Camera.framing(rig.neutral.bounds, camera, width / height)
+            camera = Camera.of_face(rig, camera, width / height)
         with self._current():
             if rig is not self._rig:
                 self.renderer.load(rig)

@@ -52,7 +52,7 @@ def sheet(
             f"at most {2 * LARGEST_SIDE} a side. Ask for smaller tiles."
         )
     if isinstance(camera, str):
-        camera = Camera.framing(rig.neutral.bounds, camera, width / height)
+        camera = Camera.of_face(rig, camera, width / height)
     result = np.empty((full[1], full[0], 4), np.uint8)
     result[:] = _paper(look)
     for i, (name, _) in enumerate(states):

@@ -4,6 +4,7 @@
     unit = "cm"                     the length that 1 in the meshes is: mm, cm, m or in
     neutral = "neutral.obj"
     shapes = "shapes.npz"           further shapes and soft regions, see `shapes_npz`; may be left out
+    [frame]                         what a picture shows of the face, see `frame_toml`
     [[expressions]]                 in the order of the menu
     name = "happy"                  label = "Happy", file = "happy.obj"; a label may be left out
     [[landmarks]]
@@ -32,7 +33,7 @@ from facemorph.core.pose import NEUTRAL
 from facemorph.core.progress import Progress
 from facemorph.core.rig import FaceInfo, Landmark, Rig, Shape, plain_label
 from facemorph.errors import FaceFolderError, MeshDataError
-from facemorph.io import correctives_toml, wrinkles_toml
+from facemorph.io import correctives_toml, frame_toml, wrinkles_toml
 from facemorph.io.face_set import check_size, read_set
 from facemorph.io.inside import inside
 from facemorph.io.limits import SHAPES, shortened
@@ -48,14 +49,18 @@ _NEUTRAL_FILE = "neutral.obj"
 _LANDMARKS = 10_000
 _KEYS: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {
-        "": ("name", "description", "credit", "licence", "unit", "neutral", "shapes", "expressions",
-             "landmarks", correctives_toml.KEY, wrinkles_toml.KEY),
+        "": ("name", "description", "credit", "licence", "unit", "neutral", "shapes", frame_toml.KEY,
+             "expressions", "landmarks", correctives_toml.KEY, wrinkles_toml.KEY),
+        frame_toml.KEY: frame_toml.KEYS,
         "expressions": ("name", "label", "file"),
         "landmarks": ("name", "vertex", "mpeg4", "ibug"),
         correctives_toml.KEY: correctives_toml.KEYS,
         wrinkles_toml.KEY: wrinkles_toml.KEYS,
     }
 )  # fmt: skip
+
+
+_SINGLE = (frame_toml.KEY,)  # tables of which there is one
 
 
 @dataclass(frozen=True)
@@ -117,7 +122,7 @@ def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: Mor
     Raises `FaceFolderError` where what `face.toml` says does not fit them.
     """
     table = _table(face.folder)
-    info = _info(face.folder, table, neutral.vertex_count)
+    info = _info(face.folder, table, neutral)
     rules = correctives_toml.read_correctives(table)
     wrinkles = wrinkles_toml.read_wrinkles(table)
     shapes = tuple(shape for shape, _ in face.shapes)
@@ -143,7 +148,8 @@ def unknown_keys(folder: Path) -> Iterator[str]:
     tables = [("", table)]
     for kind in tuple(_KEYS)[1:]:
         if table.has(kind):
-            tables += [(kind, entry) for entry in table.tables(kind, _LANDMARKS)]
+            entries = [table.table(kind)] if kind in _SINGLE else table.tables(kind, _LANDMARKS)
+            tables += [(kind, entry) for entry in entries]
     for kind, entry in tables:
         for key in entry.unknown(_KEYS[kind]):
             if (kind, key) not in told:
@@ -152,9 +158,10 @@ def unknown_keys(folder: Path) -> Iterator[str]:
 
 
 def _unknown(kind: str, key: str) -> str:
-    where = f" in [[{kind}]]" if kind else ""
+    head = f"[{kind}]" if kind in _SINGLE else f"[[{kind}]]"
+    where = f" in {head}" if kind else ""
     if kind and key in _KEYS[""]:
-        meant = f"It is one of the face's own: put it above the first [[{kind}]]."
+        meant = f"It is one of the face's own: put it above the first {head}."
     else:
         close = difflib.get_close_matches(key.casefold(), _KEYS[kind], n=1, cutoff=0.6)
         meant = f"Did you mean {close[0]!r}?" if close else f"There are: {', '.join(_KEYS[kind])}."
@@ -200,7 +207,8 @@ def _expression_entries(table: Table) -> list[Table]:
     return entries
 
 
-def _info(folder: Path, table: Table, vertex_count: int | None) -> FaceInfo:
+def _info(folder: Path, table: Table, neutral: Mesh | None) -> FaceInfo:
+    vertex_count = None if neutral is None else neutral.vertex_count
     info = FaceInfo(table.text("name", folder.resolve().name or "face"))
     landmarks = tuple(_landmark(entry, vertex_count) for entry in table.tables("landmarks", _LANDMARKS))
     return replace(
@@ -210,6 +218,7 @@ def _info(folder: Path, table: Table, vertex_count: int | None) -> FaceInfo:
         licence=table.text("licence", ""),
         unit=_unit(table),
         landmarks=landmarks,
+        frame=frame_toml.read_frame(table, None if neutral is None else neutral.bounds),
     )
 
 

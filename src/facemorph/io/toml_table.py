@@ -24,7 +24,7 @@ class Table:
 
     def __init__(self, path: Path, values: Any, where: str = "") -> None:
         if not isinstance(values, dict):
-            raise FaceFolderError(f"{path}: {where} must be a table.")
+            raise FaceFolderError(f"{path}: {where.removesuffix(': ')} must be a table.")
         self.path, self._values, self._where = path, values, where
 
     def values(self) -> dict[str, Any]:
@@ -99,6 +99,10 @@ class Table:
                 f"{self.path}: {self._where}{key} has {len(values):,} entries; {most} at most."
             )
         return values
+
+    def table(self, key: str) -> Table:
+        """The table that is there, or an empty one."""
+        return Table(self.path, self._values.get(key, {}), f"{self._where}{key}: ")
 
     def tables(self, key: str, most: int) -> list[Table]:
         """The tables of an array; none where it is not there."""

@@ -1,4 +1,4 @@
-"""Plain values as TOML: texts, numbers, and arrays of tables of these; others are left out."""
+"""Texts, numbers, arrays and tables of these, and arrays of tables as TOML; other values are left out."""
 
 from __future__ import annotations
 
@@ -21,12 +21,25 @@ def toml_text(values: Mapping[str, Any]) -> str:
 
 def _pairs(values: Mapping[str, Any]) -> Iterator[str]:
     for key, value in values.items():
-        if isinstance(value, str):
-            yield f"{_text(key)} = {_text(value)}"
-        elif isinstance(value, bool):
-            yield f"{_text(key)} = {str(value).lower()}"
-        elif isinstance(value, int) or (isinstance(value, float) and math.isfinite(value)):
-            yield f"{_text(key)} = {value!r}"
+        text = _value(value)
+        if text is not None:
+            yield f"{_text(key)} = {text}"
+
+
+def _value(value: Any) -> str | None:
+    """One value in TOML's words, None for what has none here."""
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int) or (isinstance(value, float) and math.isfinite(value)):
+        return repr(value)
+    if isinstance(value, dict):
+        return f"{{ {', '.join(_pairs(value))} }}"
+    if isinstance(value, list) and not any(isinstance(part, dict) for part in value):
+        parts = [_value(part) for part in value]
+        return None if None in parts else f"[{', '.join(part for part in parts if part)}]"
+    return None
 
 
 def _text(text: str) -> str:

@@ -20,7 +20,7 @@ def portrait(rig: Rig) -> Camera:
     """A camera that sees the face from brows to chin where the rig tells where they are, else the whole."""
     vertices = [landmark.vertex for landmark in rig.info.landmarks]
     if len(vertices) < _LANDMARKS:
-        return Camera.framing(rig.neutral.bounds)
+        return Camera.of_face(rig)
     points: Float32 = rig.neutral.positions[vertices]
     camera = Camera.framing(np.stack([points.min(axis=0), points.max(axis=0)]))
     low = camera.target[1] - 0.07 * float(np.ptp(points[:, 1]))  # jaws drop

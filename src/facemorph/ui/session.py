@@ -160,7 +160,7 @@ class Session:
             app.pick_at = app.picture_path = None
             return
         if app.framing is not None:
-            app.camera = Camera.framing(app.face.rig.neutral.bounds, app.framing, app.views()[0].aspect)
+            app.camera = Camera.of_face(app.face.rig, app.framing, app.views()[0].aspect)
             app.framing = None
         if app.pick_at is not None:
             (x, y), app.pick_at = app.pick_at, None

@@ -94,7 +94,7 @@ class Thumbnails:
         renderer = Renderer(self._ctx)
         try:
             renderer.load(rig)
-            camera = Camera.framing(rig.neutral.bounds, "10,2", SIZE[0] / SIZE[1])
+            camera = Camera.of_face(rig, "10,2", SIZE[0] / SIZE[1])
             renderer.draw(Pose(), camera, Look(background=_BACKGROUND), (SIZE[0] * 2, SIZE[1] * 2))
             large = renderer.read().reshape(SIZE[1], 2, SIZE[0], 2, 4).astype(np.float32)
         except FacemorphError:

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -17,13 +18,15 @@ from facemorph.core.morph import eased
 from facemorph.core.pose import Pose
 from facemorph.core.rig import Rig
 from facemorph.errors import FaceFolderError, JobCancelledError
-from facemorph.ui import actions
+from facemorph.ui import actions, files
 from facemorph.ui.chord import Chord
+from facemorph.ui.commands import commands
 from facemorph.ui.history import MOST_FACES, MOST_STEPS, History
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.messages import NEWS_SECS, Messages
 from facemorph.ui.paths import completed, entries, expanded
 from facemorph.ui.playback import Playback
+from facemorph.ui.purposes import PURPOSES
 from facemorph.ui.settings import Settings, config_folder, load_settings, save_settings
 from facemorph.ui.state import App, Face, Viewport, first_pose
 from facemorph.ui.theme import DARK, LIGHT, contrast
@@ -408,3 +411,24 @@ def test_a_viewports_places() -> None:
 def test_pose_of_a_fresh_face_is_neutral_with_a_goal(rig: Rig) -> None:
     pose = first_pose(rig, Settings(curve="linear"))
     assert pose == Pose(target={"happy": 1.0}, curve="linear")
+
+
+def test_every_command_that_asks_for_a_file_finds_what_it_is_asked_for(app: App) -> None:
+    asked = [c.action for c in commands(app) if isinstance(c.action, partial)]
+    purposes = {action.keywords["purpose"] for action in asked if action.func is actions.ask_for}
+    assert purposes and purposes <= PURPOSES.keys()
+
+
+def test_a_face_is_opened_by_the_description_in_its_folder(
+    app: App, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    opened: list[list[str]] = []
+    monkeypatch.setattr(files, "open_source", lambda app, source: opened.append(source))
+    PURPOSES["open"].take(app, [tmp_path / "face.toml"])
+    PURPOSES["open"].take(app, [tmp_path / "face.obj"])
+    PURPOSES["open"].take(app, [tmp_path / "face.toml", tmp_path / "b.obj"])
+    assert opened == [
+        [str(tmp_path)],
+        [str(tmp_path / "face.obj")],
+        [str(tmp_path / "face.toml"), str(tmp_path / "b.obj")],
+    ]

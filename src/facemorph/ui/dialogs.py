@@ -7,23 +7,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from facemorph.ui.files import MESH_SUFFIXES
+from facemorph.ui.purposes import Purpose
 
 _HELPERS = ("zenity", "kdialog", "matedialog", "qarma")
-TITLES = {
-    "open": "Open face",
-    "folder": "Open face folder",
-    "picture": "Save picture",
-    "mesh": "Export mesh",
-    "open points": "Open points",
-    "save points": "Save points",
-    "person": "Another face",
-    "person folder": "Folder of another face",
-    "open regions": "Open regions",
-    "save regions": "Save regions",
-    "open path": "Open path",
-    "save path": "Save path",
-}
 
 
 def available() -> bool:
@@ -36,29 +22,19 @@ def available() -> bool:
 class NativeDialog:
     """One dialog on show; `answer` is None until the user has chosen or left."""
 
-    def __init__(self, purpose: str, path: Path) -> None:
+    def __init__(self, purpose: Purpose, path: Path) -> None:
         from imgui_bundle import portable_file_dialogs as pfd
 
-        self.purpose = purpose
-        title = TITLES[purpose]
-        meshes = ["Meshes", " ".join(f"*{suffix}" for suffix in MESH_SUFFIXES), "All files", "*"]
+        folder, patterns = str(path.parent), " ".join(f"*{suffix}" for suffix in purpose.suffixes)
+        kinds = [purpose.kind, patterns, *(("All files", "*") if purpose.ask == "files" else ())]
         self._dialog: Any
-        kinds = {
-            "picture": ["PNG pictures", "*.png"],
-            "mesh": ["OBJ meshes", "*.obj"],
-            "points": ["Points", "*.json"],
-            "regions": ["Regions", "*.npz"],
-            "path": ["Paths", "*.json"],
-        }
-        action, _, what = purpose.rpartition(" ")
-        if action == "open":
-            self._dialog = pfd.open_file(title, str(path.parent), kinds[what], pfd.opt.none)
-        elif purpose in ("open", "person"):
-            self._dialog = pfd.open_file(title, str(path.parent), meshes, pfd.opt.multiselect)
-        elif purpose in ("folder", "person folder"):
-            self._dialog = pfd.select_folder(title, str(path.parent))
+        if purpose.ask == "folder":
+            self._dialog = pfd.select_folder(purpose.title, folder)
+        elif purpose.saving:
+            self._dialog = pfd.save_file(purpose.title, str(path), kinds)
         else:
-            self._dialog = pfd.save_file(title, str(path), kinds[what])
+            several = pfd.opt.multiselect if purpose.ask == "files" else pfd.opt.none
+            self._dialog = pfd.open_file(purpose.title, folder, kinds, several)
 
     def answer(self) -> list[str] | None:
         """What was chosen, [] if nothing, None while the dialog is open."""

@@ -8,44 +8,14 @@ from typing import Any
 
 from imgui_bundle import ImVec2, imgui
 
-from facemorph.ui import dialogs, emotion_paths, files, fonts, handles, people, regions
+from facemorph.ui import dialogs, fonts
 from facemorph.ui.layout import Layout
 from facemorph.ui.panels.frame import begin_page, end_page
 from facemorph.ui.paths import Entry, completed, entries, expanded, folder_of, home, suffixed
+from facemorph.ui.purposes import PURPOSES, Purpose
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, right_edge, unit
-
-_SUFFIXES = {
-    "open": (*files.MESH_SUFFIXES, ".toml"),
-    "folder": files.MESH_SUFFIXES,
-    "person": (*files.MESH_SUFFIXES, ".toml"),
-    "person folder": files.MESH_SUFFIXES,
-    "picture": (".png",),
-    "mesh": (".obj",),
-    "open points": (".json",),
-    "save points": (".json",),
-    "open regions": (".npz",),
-    "save regions": (".npz",),
-    "open path": (".json",),
-    "save path": (".json",),
-}
-_FOLDERS = ("folder", "person folder")
-_SAVING = ("picture", "mesh", "save points", "save regions", "save path")
-_HELP = {
-    "open": "A mesh file, or the folder of a face. Tab completes what you type.",
-    "folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
-    "person": "A mesh file or folder of a face to mix this one with. Tab completes what you type.",
-    "person folder": "A folder with neutral.obj and its expressions. Tab completes what you type.",
-    "picture": "Where to save the picture (PNG). Tab completes what you type.",
-    "mesh": "Where to save the morphed face (OBJ). Tab completes what you type.",
-    "open points": "A file of points (JSON). Tab completes what you type.",
-    "save points": "Where to save the points (JSON). Tab completes what you type.",
-    "open regions": "A file of regions (NPZ). Tab completes what you type.",
-    "save regions": "Where to save the regions (NPZ). Tab completes what you type.",
-    "open path": "A path over the emotion map (JSON). Tab completes what you type.",
-    "save path": "Where to save the path (JSON). Tab completes what you type.",
-}
 
 
 def draw(app: App, layout: Layout) -> None:
@@ -59,7 +29,7 @@ def draw(app: App, layout: Layout) -> None:
     if state.dialog is not None:
         _poll(app, state.dialog)
         return
-    if not begin_page(app, dialogs.TITLES[state.purpose], 640 * unit(), layout):
+    if not begin_page(app, _purpose(app).title, 640 * unit(), layout):
         state.purpose = ""
     else:
         _page(app)
@@ -71,16 +41,16 @@ def _begin(app: App) -> None:
     state.path, state.replacing, state.listed = str(_start(app)), "", None
     if app.native_dialogs:
         state.fresh = False
-        state.dialog = dialogs.NativeDialog(state.purpose, Path(state.path))
+        state.dialog = dialogs.NativeDialog(_purpose(app), Path(state.path))
 
 
 def _start(app: App) -> Path | str:
     folder = Path(app.settings.last_folder)
     if not app.settings.last_folder or not folder.is_dir():
         folder = home()
-    if app.chooser.purpose not in _SAVING:
+    if not _purpose(app).saving:
         return f"{folder}{os.sep}"
-    suffix = _SUFFIXES[app.chooser.purpose][0]
+    suffix = _purpose(app).suffixes[0]
     title = app.face.title if app.face else ""
     name = "".join(letter if letter.isalnum() or letter in " -_" else "_" for letter in title)
     return folder / f"{name.strip() or 'face'}{suffix}"
@@ -92,14 +62,15 @@ def _poll(app: App, dialog: dialogs.NativeDialog) -> None:
         return
     state = app.chooser
     state.dialog = None
-    if answer and state.purpose in _SAVING:
-        written = _written(state.purpose, Path(answer[0]))
+    purpose = _purpose(app)
+    if answer and purpose.saving:
+        written = _written(purpose, Path(answer[0]))
         if written != Path(answer[0]) and written.exists():
             # The desktop asked about the name without its suffix only.
             state.path = state.replacing = str(written)
             state.fresh = True
             return
-    purpose, state.purpose = state.purpose, ""
+    state.purpose = ""
     if answer:
         _take(app, purpose, [Path(part) for part in answer])
 
@@ -107,12 +78,13 @@ def _poll(app: App, dialog: dialogs.NativeDialog) -> None:
 def _page(app: App) -> None:
     state = app.chooser
     imgui.push_text_wrap_pos(0.0)
-    imgui.text_disabled(_HELP[state.purpose])
+    imgui.text_disabled(_purpose(app).help)
     imgui.pop_text_wrap_pos()
     found = _completions(app)
     entered = _field(app, found)
     _list(app, found)
-    word = "Save" if state.purpose in _SAVING else "Open"
+    purpose = _purpose(app)
+    word = "Save" if purpose.saving else "Open"
     goal = expanded(state.path)
     again = state.replacing == str(goal)
     word = "Replace it" if again else word
@@ -121,10 +93,10 @@ def _page(app: App) -> None:
     note = f"{goal.name} is there already." if again else ""
     imgui.text_unformatted(cut(note, imgui.get_content_region_avail().x - width - 12 * unit()))
     imgui.same_line(right_edge() - width)
-    imgui.begin_disabled(not _usable(state.purpose, goal))
+    imgui.begin_disabled(not _usable(purpose, goal))
     pressed = imgui.button(word, ImVec2(width, 0))
     imgui.end_disabled()
-    if (pressed or entered) and _usable(state.purpose, goal):
+    if (pressed or entered) and _usable(purpose, goal):
         _chosen(app, goal)
 
 
@@ -132,58 +104,40 @@ def _completions(app: App) -> list[Entry]:
     """What completes the typed path; the folder is read again only when the path changes."""
     state = app.chooser
     if state.listed is None or state.listed[0] != state.path:
-        state.listed = (state.path, entries(state.path, _SUFFIXES[state.purpose]))
+        state.listed = (state.path, entries(state.path, _purpose(app).suffixes))
     return state.listed[1]
 
 
-def _usable(purpose: str, goal: Path) -> bool:
-    if purpose in _SAVING:
+def _usable(purpose: Purpose, goal: Path) -> bool:
+    if purpose.saving:
         return goal.parent.is_dir() and not goal.is_dir()
-    return goal.is_dir() if purpose in _FOLDERS else goal.exists()
+    return goal.is_dir() if purpose.ask == "folder" else goal.exists()
 
 
 def _chosen(app: App, goal: Path) -> None:
     state = app.chooser
-    if state.purpose in _SAVING and state.replacing != str(goal):
-        written = _written(state.purpose, goal)
+    purpose = _purpose(app)
+    if purpose.saving and state.replacing != str(goal):
+        written = _written(purpose, goal)
         if written.exists():
             state.path = state.replacing = str(written)
             return
-    purpose, state.purpose = state.purpose, ""
+    state.purpose = ""
     imgui.close_current_popup()
     _take(app, purpose, [goal])
 
 
-def _written(purpose: str, goal: Path) -> Path:
-    return suffixed(goal, _SUFFIXES[purpose][0])
+def _written(purpose: Purpose, goal: Path) -> Path:
+    return suffixed(goal, purpose.suffixes[0])
 
 
-def _take(app: App, purpose: str, paths: list[Path]) -> None:
-    first = paths[0]
-    app.settings.last_folder = str(first.parent)
-    if purpose == "picture":
-        files.save_picture(app, first)
-    elif purpose == "mesh":
-        files.export_mesh(app, first)
-    elif purpose == "open points":
-        handles.load(app, first)
-    elif purpose == "save points":
-        handles.save(app, first)
-    elif purpose == "open regions":
-        regions.load(app, first)
-    elif purpose == "save regions":
-        regions.save(app, first)
-    elif purpose == "open path":
-        emotion_paths.open_path(app, first)
-    elif purpose == "save path":
-        emotion_paths.save_path(app, first)
-    else:
-        whole = len(paths) == 1 and first.name == "face.toml"
-        source = [str(path) for path in ([first.parent] if whole else paths)]
-        if purpose in ("person", "person folder"):
-            people.ask_files(app, source, anew=True)
-        else:
-            files.open_source(app, source)
+def _take(app: App, purpose: Purpose, paths: list[Path]) -> None:
+    app.settings.last_folder = str(paths[0].parent)
+    purpose.take(app, paths)
+
+
+def _purpose(app: App) -> Purpose:
+    return PURPOSES[app.chooser.purpose]
 
 
 def _field(app: App, found: list[Entry]) -> bool:
@@ -219,7 +173,7 @@ def _field(app: App, found: list[Entry]) -> bool:
 
 
 def _with_name(app: App, folder: Path) -> str:
-    if app.chooser.purpose not in _SAVING:
+    if not _purpose(app).saving:
         return f"{folder}{os.sep}" if str(folder) != os.sep else os.sep
     return str(folder / expanded(app.chooser.path).name)
 
@@ -241,7 +195,7 @@ def _list(app: App, found: list[Entry]) -> None:
 def _nothing_found(app: App) -> str:
     if not folder_of(app.chooser.path).is_dir():
         return "No such folder."
-    return "A new file of this name." if app.chooser.purpose in _SAVING else "No file here begins like that."
+    return "A new file of this name." if _purpose(app).saving else "No file here begins like that."
 
 
 def _entry(app: App, entry: Entry, place: int) -> None:
@@ -258,6 +212,6 @@ def _entry(app: App, entry: Entry, place: int) -> None:
     imgui.pop_id()
     if not pressed:
         return
-    saving_into = entry.is_folder and state.purpose in _SAVING
+    saving_into = entry.is_folder and _purpose(app).saving
     state.path = str(Path(entry.path) / expanded(state.path).name) if saving_into else entry.path
     state.fresh = True

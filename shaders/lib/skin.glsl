@@ -8,7 +8,7 @@
 const vec3 SCATTER = vec3(0.50, 0.24, 0.15);
 // What fine relief is worth to light that comes from below the surface.
 const vec3 FIRMNESS = vec3(0.42, 0.72, 0.85);
-const float SPECULAR = 0.030;              // reflected head on, of an index of refraction of 1.42
+const float SPECULAR = 0.028;              // reflected head on, of an index of refraction of 1.40
 
 // Half the angle over which the terminator is blurred, as a cosine.
 vec3 softness(float bend) {
@@ -48,11 +48,13 @@ float lobe(float cosine, float rough) {
     return a / (d * d);
 }
 
-// Two lobes, one wide and one of the thin film of oil, at this cosine between normal and half-way vector.
+// Two lobes, one wide, and one of the film of oil that only the smoothest places have, at this cosine
+// between normal and half-way vector. Each throws back as much as the other: a wide one is dim.
 float lobes(float cosine, float rough) {
+    float film = clamp(1.5 * (0.56 - rough), 0.04, 0.24);
     // A wide lamp is mirrored wide and dim.
     rough = min(rough + 0.25 * key_softness, 1.0);
-    return 0.7 * lobe(cosine, min(1.25 * rough, 1.0)) + 0.3 * lobe(cosine, 0.72 * rough);
+    return mix(lobe(cosine, min(1.25 * rough, 1.0)), lobe(cosine, 0.80 * rough), film);
 }
 
 // What a light towards `towards` loses before and after the lobes: its angle, Fresnel's rise (Schlick

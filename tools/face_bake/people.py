@@ -40,7 +40,7 @@ class Look:
     brow_density: float = 1.0
     lash_length: float = 1.0
     lash_density: float = 1.0
-    lip_strength: float = 0.85
+    lip_strength: float = 0.80
     lid: tuple = (0.90, 0.78, 0.76)
     blush: float = 1.0
     freckles: float = 0.0
@@ -69,7 +69,7 @@ ADA = Person(
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"caucasian": 1.0}),
     Look(
         skin=(0.90, 0.72, 0.62),
-        lips=(0.78, 0.42, 0.40),
+        lips=(0.75, 0.44, 0.42),
         hair=(0.26, 0.15, 0.09),
         brow=(0.25, 0.15, 0.10),
         iris=(0.39, 0.46, 0.505),
@@ -136,7 +136,7 @@ MEI = Person(
     Phenotype(gender=0.05, muscle=0.45, proportions=1.0, descent={"asian": 1.0}),
     Look(
         skin=(0.91, 0.75, 0.62),
-        lips=(0.76, 0.42, 0.40),
+        lips=(0.75, 0.44, 0.41),
         hair=(0.06, 0.05, 0.05),
         brow=(0.10, 0.07, 0.06),
         iris=(0.22, 0.125, 0.07),
@@ -165,7 +165,7 @@ KOFI = Person(
     Phenotype(gender=1.0, muscle=0.6, proportions=1.0, descent={"african": 1.0}),
     Look(
         skin=(0.42, 0.27, 0.19),
-        lips=(0.44, 0.25, 0.22),
+        lips=(0.385, 0.215, 0.180),
         hair=(0.05, 0.04, 0.035),
         brow=(0.05, 0.035, 0.03),
         iris=(0.165, 0.095, 0.06),
@@ -192,7 +192,7 @@ ZOLA = Person(
     Phenotype(gender=0.0, weight=0.48, proportions=1.0, descent={"african": 0.8, "caucasian": 0.2}),
     Look(
         skin=(0.52, 0.34, 0.25),
-        lips=(0.55, 0.28, 0.27),
+        lips=(0.465, 0.240, 0.215),
         hair=(0.055, 0.04, 0.035),
         brow=(0.06, 0.04, 0.03),
         iris=(0.19, 0.105, 0.06),

@@ -15,7 +15,7 @@ YOUNG, AGEING = 0.042, 0.020
 MIDDLE = 150
 # Decimetres: the net of fine lines that skin is divided by, and the pores.
 NET, PORE = 0.0095, 0.0150
-PLAIN = 0.50
+PLAIN = 0.54
 ROUGHNESS_SIDE = 512
 
 
@@ -54,6 +54,7 @@ class ReliefPainter:
         nearest, *_ = cells(points, PORE, seed=9)
         self._pores = 1 - smoothstep(0.10, 0.42, nearest)
         self._swell = 0.6 * noise(points, 42) + 0.4 * noise(points + 3, 85)
+        self._uneven = noise.layered(points + 11, 40, 2)
         # Crêpe below the eyes and at their corners: finer lines, all one way.
         x, y, z = points.T
         lines = noise(np.stack([x * 14, y * 105, z * 14], -1), 1)
@@ -70,10 +71,10 @@ class ReliefPainter:
         pores = (0.16 + 0.95 * self._porous) * (0.75 + 0.45 * age)
         below_eyes = _spot(points, (0.38, 7.16, 1.35), (0.22, 0.09, 0.3))
         below_eyes = np.clip(below_eyes + _spot(points, (0.60, 7.25, 1.1), (0.12, 0.14, 0.3)), 0, 1)
-        height = 0.10 * self._swell - 0.17 * self._net * (0.8 + 0.4 * age)
+        height = 0.15 * self._swell + 0.05 * self._uneven - 0.17 * self._net * (0.8 + 0.4 * age)
         height -= 0.50 * self._pores * pores
         height -= (0.06 + 0.30 * age) * self._crepe * below_eyes
-        height = height * skin - 0.62 * self._lip_creases * lips
+        height = height * skin - 0.40 * self._lip_creases * lips
         height *= np.where(canvas.mouth > 0, 0.0, 1.0)
         levels = np.clip(MIDDLE + 127 * height, 0, 255)
         return Image.fromarray(self._raster_grey(levels, MIDDLE))
@@ -82,19 +83,20 @@ class ReliefPainter:
         """0 a mirror, 1 no highlight; `light` (p,) is the occlusion of the neutral."""
         points, canvas = self._canvas.points, self._canvas
         noise = Noise(32)
-        rough = PLAIN + 0.035 * noise.layered(points, 9, 3) + 0.03 * self._swell
+        rough = PLAIN + 0.020 * noise.layered(points, 9, 3) + 0.020 * self._uneven + 0.04 * self._swell
+        rough = rough + 0.06 * self._pores * self._porous
         for change, centre, radii in (
-            (-0.13, (0, 7.00, 1.6), (0.12, 0.26, 0.4)),
-            (-0.09, (0, 7.72, 1.5), (0.38, 0.22, 0.4)),
-            (-0.05, (0.40, 7.02, 1.4), (0.16, 0.12, 0.3)),
+            (-0.14, (0, 7.00, 1.6), (0.12, 0.26, 0.4)),
+            (-0.06, (0, 7.70, 1.5), (0.34, 0.20, 0.4)),
+            (-0.03, (0.40, 7.02, 1.4), (0.16, 0.12, 0.3)),
             (-0.05, (0, 6.28, 1.5), (0.14, 0.10, 0.3)),
-            (-0.06, (0.32, 7.36, 1.4), (0.14, 0.06, 0.2)),
+            (-0.04, (0.32, 7.36, 1.4), (0.14, 0.06, 0.2)),
             (0.07, (0.60, 6.75, 0.9), (0.22, 0.35, 0.5)),
         ):
             rough = rough + change * _spot(points, centre, radii)
         rough = rough + 0.10 * smoothstep(6.20, 5.90, points[:, 1])
-        rough = rough + 0.10 * look.stubble * smoothstep(6.8, 6.6, points[:, 1])
-        rough = rough * (1 - canvas.lips) + (0.34 + 0.03 * self._lip_creases) * canvas.lips
+        rough = rough + 0.10 * look.stubble * smoothstep(6.95, 6.75, points[:, 1])
+        rough = rough * (1 - canvas.lips) + (0.42 + 0.05 * self._lip_creases) * canvas.lips
         # What the neutral hides, and what hair grows from, does not shine.
         hidden = np.maximum(smoothstep(0.55, 0.25, light), 0.9 * (growth(points, look) > 0.3))
         rough = rough + (1 - rough) * hidden

@@ -13,6 +13,8 @@ from .people import Look
 from .skin_tones import aged, blood_of, freckled, melanin_of, paleness, shaven, stained, veins
 
 LIP_LIGHT = 0.68
+# A factor on the skin around the lips.
+BESIDE_LIPS = (1.04, 1.03, 1.03)
 # How deep shade is in the stored colours, by channel.
 SHADE = (0.62, 0.86, 0.92)
 # and how deep that of hair is, which lies on the skin and not in it.
@@ -34,18 +36,24 @@ class Canvas:
 
 
 def _lips(colour, canvas: Canvas, mottling, noise: Noise, look: Look) -> np.ndarray:
-    """Lips with fine upright creases; their border is soft, and the skin around it a little paler."""
+    """Lips with fine upright creases; their border is soft, on dark skin darker than they are."""
     x, y, z = canvas.points.T
-    edge = canvas.lips
-    colour = tint(colour, 0.5 * smoothstep(0.0, 0.12, edge) * smoothstep(0.5, 0.15, edge), (1.04, 1.03, 1.03))
+    edge, pale = canvas.lips, paleness(look)
+    colour = tint(colour, 0.5 * pale * smoothstep(0.0, 0.12, edge) * smoothstep(0.5, 0.15, edge), BESIDE_LIPS)
     creases = noise(np.stack([x * 84 + 0.8 * np.sin(25 * y), y * 7, z * 7], -1), 1)
     fine = noise(np.stack([x * 190, y * 20, z * 20], -1), 1)
-    tone = 1 + 0.05 * mottling + 0.06 * np.abs(creases) + 0.025 * fine
-    # Fuller colour towards the middle line, where lips are wet.
-    inner = smoothstep(0.065, 0.0, np.abs(y - 6.625 - 0.10 * np.abs(x)))
+    tone = 1 + 0.05 * mottling + 0.07 * np.abs(creases) + 0.03 * fine
+    middle = np.abs(y - 6.625 - 0.10 * np.abs(x))
     lips = np.array(look.lips, np.float32) * tone[:, None]
-    lips = tint(lips, 0.35 * inner, (0.90, 0.80, 0.82))
-    return mix(colour, lips, smoothstep(0.05, 0.75, edge) * look.lip_strength)
+    # Fuller colour towards the middle line, where lips are wet; the upper lip lies in shade and is browner.
+    lips = tint(lips, 0.35 * smoothstep(0.065, 0.0, middle), (0.90, 0.80, 0.82))
+    upper = smoothstep(6.60, 6.65, y - 0.10 * np.abs(x))
+    lips = tint(lips, upper, (0.95, 0.93, 0.93))
+    # Melanin gathers at the border of dark lips and leaves the middle of the lower one rosy.
+    rim = (1 - pale) / 0.7 * smoothstep(1.0, 0.35, edge)
+    lips = tint(lips, 0.5 * rim, (0.74, 0.70, 0.72))
+    uneven = edge + 0.06 * fine * (edge > 0.05)
+    return mix(colour, lips, smoothstep(0.02, 0.95, uneven) * look.lip_strength)
 
 
 def paint_skin(

@@ -13,10 +13,10 @@ from .wrinkle_rules import SET_NAMES
 from .wrinkles import paint_wrinkles, wrinkle_height
 
 RELIEF_QUALITY, ROUGHNESS_QUALITY, WRINKLE_QUALITY = 74, 85, 88
-# Young skin folds in rounder furrows: so many of 1024 pixels.
-YOUNG_BLUR = 1.8
+# Skin folds in round furrows, young skin in rounder ones: blurred by so many of 1024 pixels.
+BLUR, YOUNG_BLUR = 0.8, 1.2
 # Sides of the pictures as parts of the skin's.
-RELIEF_PART, WRINKLE_PART = 0.75, 0.5
+RELIEF_PART, WRINKLE_PART = 0.5, 0.5
 
 
 class SkinPictures:
@@ -36,7 +36,7 @@ class SkinPictures:
         rough = self._relief.roughness(self._painter.light(body), person.look)
         rough.save(folder / "roughness.jpg", quality=ROUGHNESS_QUALITY, optimize=True)
         # Colours are sets of wrinkles: their edges must stay where they are.
-        soft = YOUNG_BLUR * (1 - age_of(person)) * self._wrinkles.width / 1024
+        soft = (BLUR + YOUNG_BLUR * (1 - age_of(person))) * self._wrinkles.width / 1024
         wrinkles = self._wrinkles.filter(ImageFilter.GaussianBlur(soft))
         wrinkles.save(folder / "wrinkles.jpg", quality=WRINKLE_QUALITY, subsampling=0, optimize=True)
 

@@ -33,9 +33,9 @@ def paleness(look: Look) -> float:
 
 def blood_of(points, ears, broad, mottling, look: Look) -> np.ndarray:
     """Blood (p,) under the skin: in cheeks, nose, ears, lids and chin; less in the forehead's middle."""
-    total = 0.06 * broad + 0.075 * mottling
+    total = 0.05 * broad + 0.035 * mottling
     for amount, centre, radii in (
-        (0.30 * look.blush, (0.41, 6.96, 1.35), (0.21, 0.16, 0.30)),
+        (0.26 * look.blush, (0.41, 6.96, 1.35), (0.24, 0.19, 0.34)),
         (0.30, (0, 6.93, 1.68), (0.11, 0.11, 0.18)),
         (0.38, (0.145, 6.89, 1.5), (0.055, 0.06, 0.12)),
         (0.30, (0, 6.28, 1.5), (0.15, 0.09, 0.20)),
@@ -45,7 +45,7 @@ def blood_of(points, ears, broad, mottling, look: Look) -> np.ndarray:
         (-0.20, (0.30, 6.66, 1.4), (0.10, 0.10, 0.2)),
         (-0.18, (0.62, 7.40, 1.0), (0.16, 0.20, 0.3)),
     ):
-        total = total + amount * spot(points, centre, radii) * (1 + 0.30 * mottling)
+        total = total + amount * spot(points, centre, radii) * (1 + 0.10 * mottling)
     shells = ears * (np.abs(points[:, 0]) > 0.66)
     return paleness(look) * (total + 0.45 * shells * (0.8 + 0.2 * broad))
 

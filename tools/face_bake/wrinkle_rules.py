@@ -64,6 +64,7 @@ RULES = (
         {"AU4": 1.0, "AU9": 0.35, "angry": 1.0, "disgusted": 0.25, "sad": 0.55, "afraid": 0.55},
         {"browDown": 1.0, "noseSneer": 0.35},
         ageing=0.30,
+        young=0.70,
         crosses=True,
     ),
     Rule(

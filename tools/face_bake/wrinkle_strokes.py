@@ -40,12 +40,12 @@ def _forehead() -> tuple[Stroke, ...]:
 
 
 FOREHEAD = _forehead()
-# Corrugator pulls the brows together: upright lines between them, never quite alike.
+# Corrugator pulls the brows together: short upright furrows between them, soft as folds are, with a
+# shallow valley inside each brow's head; never quite alike.
 FROWN = (
-    Stroke(((0.070, 7.395), (0.066, 7.46), (0.078, 7.54), (0.092, 7.61)), 0.0140, 1.0, 0.006),
-    Stroke(((0.124, 7.43), (0.122, 7.49), (0.136, 7.56)), 0.0110, 0.55, 0.006),
-    Stroke(((0.026, 7.44), (0.022, 7.50), (0.028, 7.56)), 0.0095, 0.35, 0.006),
-    Stroke(((0.10, 7.555), (0.17, 7.575), (0.25, 7.560)), 0.0120, 0.30),
+    Stroke(((0.082, 7.365), (0.071, 7.42), (0.068, 7.48), (0.080, 7.565)), 0.0200, 1.0, 0.005, 0.40, 0.60),
+    Stroke(((0.128, 7.45), (0.124, 7.50), (0.136, 7.56)), 0.0170, 0.35, 0.005, 0.50, 0.60),
+    Stroke(((0.110, 7.540), (0.165, 7.558), (0.23, 7.548)), 0.0210, 0.28, 0.006, 0.50, 0.60),
 )
 # Orbicularis oculi is a ring: its lines run out from the corner like spokes, and under the lid along it.
 CROWS_FEET = (

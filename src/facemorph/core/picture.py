@@ -37,7 +37,7 @@ class Look:
     heat_max      distance at the heat map's red end in model units; None takes the largest in the pose
     subdivision   levels of Catmull-Clark that the surface is refined by, 0 to 2; 0 draws the file's own
     light         studio (key, fill and rim of a portrait), window (large and soft, from one side), flat
-                  (even, from the front, the same for every skin, a plain backdrop: for stimuli)
+                  (even, from the front, a plain backdrop: for stimuli)
     exposure      factor on all light
     luminance     where it is set, `exposure` is settled so that the mean luminance of the skin's pixels
                   is this: CIE Y of the picture's sRGB made linear, 1 for white. For skin and clay only

@@ -34,19 +34,19 @@ WINDOW = Lights(
     floor=(0.12, 0.11, 0.10),
     key_softness=0.45,
 )
-# Most of it comes from everywhere, so that nothing shines and a turned head is as bright as a straight one.
+# Wide and from the front, so that nothing shines and a turned head is as bright as a straight one; a little
+# more from above, so that brows, nose and chin keep their form. Nothing comes from one side.
 FLAT = Lights(
-    key=(0.55, 0.55, 0.55),
-    key_from=(0.0, 12.0),
+    key=(0.70, 0.70, 0.70),
+    key_from=(0.0, 24.0),
     fill=(0.0, 0.0, 0.0),
     fill_from=(0.0, 0.0),
     catch_from=(0.0, 14.0),
     rim=(0.0, 0.0, 0.0),
     rim_from=(180.0, 0.0),
-    sky=(0.72, 0.72, 0.72),
-    floor=(0.60, 0.60, 0.60),
-    key_softness=1.0,
-    adapts=False,
+    sky=(0.74, 0.74, 0.74),
+    floor=(0.44, 0.44, 0.44),
+    key_softness=0.8,
     backdrop=0.0,
     lag_deg=0.0,
 )

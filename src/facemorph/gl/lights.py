@@ -22,7 +22,6 @@ class Lights:
 
     key_softness  how wide the key is: 0 a small lamp, 1 a wall of light whose shade has no edge
     catch_from    where eyes see the key: lower than it is, or the upper lid would hide the highlight
-    adapts        whether the lights are stronger for dark skin, as a photographer opens the lens for it
     backdrop      how much depth the backdrop has: 0 plain, without any shadow, to 1
     lag_deg       of the lights behind the camera
     """
@@ -37,7 +36,6 @@ class Lights:
     sky: Light
     floor: Light
     key_softness: float = 0.0
-    adapts: bool = True
     backdrop: float = 1.0
     lag_deg: float = LAG_DEG
 

@@ -87,7 +87,7 @@ class Painter:
         scene |= shadow_uniforms(surface.form.of_file.bounds, camera, size, STRENGTH)
         self._assigned.clear()
         later = self._backdrop.begin(framebuffer, scene)
-        if look.shading == "skin" and lights.adapts:
+        if look.shading == "skin":
             scene = exposed(scene, self._exposures.of((surface.mesh, *surface.partners), self._shares))
         self._ctx.enable_only(self._ctx.DEPTH_TEST | self._ctx.CULL_FACE)
         self._ctx.depth_func = "<="

@@ -37,7 +37,7 @@ LIGHT_WORDS = {"studio": "Studio light", "window": "Window light", "flat": "Flat
 LIGHT_HELP = {
     "studio": "A portrait's: a large key light, some of it from the other side, a rim from behind",
     "window": "Large and soft, from one side",
-    "flat": "Even, from the front, the same for every skin, on a plain backdrop: for pictures in studies",
+    "flat": "Even, from the front, on a plain backdrop: for pictures in studies",
 }
 DIRECTION_WORDS = {
     "front": "Front",

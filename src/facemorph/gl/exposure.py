@@ -24,7 +24,7 @@ from facemorph.gl.materials import PLAIN, colour_without_texture, finish_of
 from facemorph.gl.textures import Textures
 
 FAIR = 0.20
-EASING = 0.22
+EASING = 0.26
 LEAST, MOST = 0.75, 2.0
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _WHITE = (1.0, 1.0, 1.0)

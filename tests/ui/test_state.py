@@ -169,6 +169,7 @@ def test_playing_follows_time_not_frames() -> None:
 
 def test_settings_come_back_as_they_were_kept(tmp_path: Path) -> None:
     settings = Settings(window_size=[900, 700], theme="light", recent=[["/a/b"], ["/c", "/d"]], loop=True)
+    settings.equal_luminance, settings.luminance, settings.luminance_of = True, 0.31, "picture"
     save_settings(tmp_path, settings)
     assert load_settings(tmp_path) == (settings, "")
 
@@ -207,6 +208,9 @@ def test_a_broken_settings_file_is_kept_aside_and_the_start_goes_on(tmp_path: Pa
         ("right_width", float("inf")),
         ("theme", "pink"),
         ("light", "candle"),
+        ("equal_luminance", 1),
+        ("luminance", 0.9),
+        ("luminance_of", "neck"),
         ("recent", [[]]),
         ("recent", [["a"], [3]]),
         ("left_width", float("nan")),

@@ -13,6 +13,7 @@ SHADINGS: tuple[Shading, ...] = get_args(Shading)
 LightRig = Literal["studio", "window", "flat"]
 LIGHT_RIGS: tuple[LightRig, ...] = get_args(LightRig)
 LuminanceOf = Literal["face", "picture"]
+LUMINANCES_OF: tuple[LuminanceOf, ...] = get_args(LuminanceOf)
 Rgba = tuple[float, float, float, float]
 LARGEST_SIDE = 8192
 SUBDIVISIONS = (0, 1, 2)
@@ -77,6 +78,14 @@ def checked_light(name: str) -> LightRig:
         if name == light:
             return light
     raise UnknownNameError("light", name, LIGHT_RIGS)
+
+
+def checked_luminance_of(name: str) -> LuminanceOf:
+    """`name` as a `LuminanceOf`. Raises `OptionError` naming the choices."""
+    for of in LUMINANCES_OF:
+        if name == of:
+            return of
+    raise OptionError(f"equal luminance is of {' or '.join(LUMINANCES_OF)}; not {name!r}.")
 
 
 def checked_luminance(luminance: float) -> float:

@@ -33,10 +33,11 @@ WEIGHTS = (0.2126, 0.7152, 0.0722)
 CLOSE = 0.001
 SMALL_SIDE = 320
 _MOST_STEPS = 12
+_MOST_KEPT = 256
 _MOST_EXPOSURE = 64.0
 _USUAL_SLOPE = 0.8  # of log luminance over log exposure
 _BLACK = (0.0, 0.0, 0.0, 1.0)
-_LIT = ("skin", "clay")
+LIT = ("skin", "clay")
 
 
 def mean_luminance(pixels: UInt8, where: Bool) -> float:
@@ -67,9 +68,9 @@ class EqualLuminance:
         """
         assert look.luminance is not None
         target = checked_luminance(look.luminance)
-        if look.shading not in _LIT:
+        if look.shading not in LIT:
             raise OptionError(
-                f"equal luminance is for the shadings {' and '.join(_LIT)}; {look.shading} knows no light."
+                f"equal luminance is for the shadings {' and '.join(LIT)}; {look.shading} knows no light."
             )
         plain = replace(look, luminance=None, background=_BLACK, wire=False)
         if look.luminance_of == "picture":
@@ -84,6 +85,8 @@ class EqualLuminance:
         people = tuple((id(partner.rig), partner.weight) for partner in scene.partners)
         key = (camera, look, size, target, people)
         if key not in self._kept:
+            if len(self._kept) >= _MOST_KEPT:
+                self._kept.clear()
             neutral = Scene(Pose(), partners=scene.partners)
             self._kept[key] = self._solved(neutral, camera, look, size, target)
         return self._kept[key]

@@ -6,7 +6,7 @@ import traceback
 from dataclasses import replace
 
 from facemorph.core.morph import Curve
-from facemorph.core.picture import LightRig, Shading
+from facemorph.core.picture import LEAST_LUMINANCE, MOST_LUMINANCE, LightRig, Shading
 from facemorph.core.pose import Pose, state_of
 from facemorph.deform.controls import Controls
 from facemorph.errors import FacemorphError
@@ -154,6 +154,21 @@ def toggle_turntable(app: App) -> None:
 def set_light(app: App, light: LightRig) -> None:
     """Choose the lights around the face, for now and for the next start."""
     app.settings.light = light
+
+
+def toggle_equal_luminance(app: App) -> None:
+    """Light every face until its skin has the same luminance, or as it comes."""
+    app.settings.equal_luminance = not app.settings.equal_luminance
+
+
+def set_luminance(app: App, luminance: float) -> None:
+    """The luminance that skin is brought to."""
+    app.settings.luminance = min(max(luminance, LEAST_LUMINANCE), MOST_LUMINANCE)
+
+
+def toggle_luminance_of(app: App) -> None:
+    """Give each picture the luminance by itself, or the neutral face, whose exposure the others keep."""
+    app.settings.luminance_of = "face" if app.settings.luminance_of == "picture" else "picture"
 
 
 def toggle_theme(app: App) -> None:

@@ -163,6 +163,14 @@ VIEW = (
                  "plain sum of its shapes"),
     *(Command(LIGHT_WORDS[name], partial(actions.set_light, light=name), "View/Lights", (), 2, always,
               partial(_light_is, name), help=LIGHT_HELP[name]) for name in LIGHT_RIGS),
+    Command("Equal luminance", actions.toggle_equal_luminance, "View/Lights", (), 3, always,
+            lambda app: app.settings.equal_luminance,
+            help="Lights are raised or lowered until every face's skin is equally bright: for pictures in "
+                 "studies. How bright is set at the lower left of the face; saved pictures have it too"),
+    Command("Equal luminance for each expression", actions.toggle_luminance_of, "View/Lights", (), 3,
+            lambda app: app.settings.equal_luminance, lambda app: app.settings.luminance_of == "picture",
+            help="Every picture is lit by itself. Off, the neutral face is, and its expressions keep "
+                 "that light: they then differ by a few percent"),
     Command("Faces panel", actions.toggle_left, "View", (), 3, always,
             lambda app: app.settings.left_open and not app.panels_hidden),
     Command("Pages panel", actions.toggle_right, "View", (), 3, always,

@@ -14,12 +14,13 @@ import numpy as np
 from imgui_bundle import imgui
 
 from facemorph.core.camera import Camera
-from facemorph.core.picture import checked_light
+from facemorph.core.picture import Look, checked_light, checked_luminance_of
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
 from facemorph.ui import actions, emotion_paths, files, fonts, theme
 from facemorph.ui.draw import draw_ui
 from facemorph.ui.emotion_pictures import pole_pictures
+from facemorph.ui.exposing import Exposing
 from facemorph.ui.hotkeys import nudging
 from facemorph.ui.panels.messages import sliding
 from facemorph.ui.people_pictures import corner_pictures
@@ -49,6 +50,7 @@ class Session:
         self.poles = pole_pictures()
         self.corners = corner_pictures()
         self._smoothing = Smoothing()
+        self._exposing = Exposing()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
@@ -121,7 +123,14 @@ class Session:
             theme.apply(*wanted)
             self._style = wanted
         backdrop = theme.THEMES[app.settings.theme].backdrop
-        app.look = replace(app.look, background=backdrop, light=checked_light(app.settings.light))
+        settings = app.settings
+        app.look = replace(
+            app.look,
+            background=backdrop,
+            light=checked_light(settings.light),
+            luminance=settings.luminance if settings.equal_luminance else None,
+            luminance_of=checked_luminance_of(settings.luminance_of),
+        )
 
     def _take_arriving(self, app: App) -> None:
         """Show the face that was loaded, if the renderer can; else keep the one there is."""
@@ -150,6 +159,7 @@ class Session:
         self._drawn = ()
         self.renderer.load(face.rig)
         self._loaded = face
+        self._exposing.forget()
         shown = (face.title, *face.source, *(shape.label for shape in face.rig.shapes))
         if not self._wide_script and any(fonts.needs_wide_script(text) for text in shown):
             self._wide_script = fonts.add_wide_script()
@@ -169,6 +179,7 @@ class Session:
                 app.camera = app.camera.pivoted(np.asarray(hit.point, np.float64))
 
     def _draw_face(self, app: App) -> None:
+        self._hurried = False
         if app.face is None:
             return
         if app.face is not self._loaded:
@@ -196,14 +207,23 @@ class Session:
         )
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
             self._scene = scene
-            self.renderer.draw(scene, app.camera, app.shown_look, view.size, quality=quality)
+            look = self._exposed(app, scene, view.size, quality)
+            self.renderer.draw(scene, app.camera, look, view.size, quality=quality)
             self._drawn = (*wanted, quality)
-        self._hurried = pictured
+        self._hurried |= pictured
         self._legend(app)
         show(self.renderer, view)
         if app.on_face.split is not None:
             self._hurried |= self.split.draw(app, app.on_face.split, quality)
         self._save(app)
+
+    def _exposed(self, app: App, scene: Scene, size: tuple[int, int], quality: Quality) -> Look:
+        moving = quality == "fast"
+        look = self._exposing.look(self.renderer, scene, app.camera, app.shown_look, size, moving=moving)
+        # The interface was built before: what there is to say takes one more frame.
+        self._hurried |= app.luminance_problem != self._exposing.problem
+        app.luminance_problem = self._exposing.problem
+        return look
 
     def _smooth(self, app: App) -> None:
         level = self._smoothing.step(app, self.renderer.draw_secs)
@@ -221,6 +241,8 @@ class Session:
         path, app.picture_path = app.picture_path, None
         if path is None:
             return
+        if app.luminance_problem:
+            app.messages.fail(f"{path.name} has not the luminance asked for: {app.luminance_problem}")
         if app.on_face.split is None:
             files.write_picture(app, path, self.renderer.read(), self.renderer.legend)
         else:

@@ -13,7 +13,7 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from facemorph.core.picture import LIGHT_RIGS
+from facemorph.core.picture import LEAST_LUMINANCE, LIGHT_RIGS, LUMINANCE, LUMINANCES_OF, MOST_LUMINANCE
 
 VERSION = 1
 MOST_RECENT = 12
@@ -29,6 +29,9 @@ class Settings:
     maximized: bool = False
     theme: str = "dark"
     light: str = "studio"
+    equal_luminance: bool = False
+    luminance: float = LUMINANCE
+    luminance_of: str = "face"
     recent: list[list[str]] = field(default_factory=list)
     left_open: bool = False
     right_open: bool = True
@@ -81,6 +84,9 @@ _FITS: dict[str, Callable[[Any], bool]] = {
     "maximized": _flag,
     "theme": lambda v: v in THEMES,
     "light": lambda v: v in LIGHT_RIGS,
+    "equal_luminance": _flag,
+    "luminance": _number(LEAST_LUMINANCE, MOST_LUMINANCE),
+    "luminance_of": lambda v: v in LUMINANCES_OF,
     "recent": lambda v: isinstance(v, list) and len(v) <= 100 and all(_text_list(e) and e for e in v),
     "left_open": _flag,
     "right_open": _flag,

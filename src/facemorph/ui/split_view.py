@@ -18,6 +18,7 @@ from facemorph.core.scene import Scene
 from facemorph.gl.describe import Graphics
 from facemorph.gl.form import Form
 from facemorph.gl.heat import Legend
+from facemorph.ui.exposing import Exposing
 from facemorph.ui.on_face import Split
 from facemorph.ui.state import App, Face, Viewport
 
@@ -84,6 +85,7 @@ class SplitView:
         self._new = new_renderer
         self.renderer: DrawsFaces | None = None
         self._loaded: Face | None = None
+        self._exposing = Exposing()
         self._drawn: tuple[object, ...] = ()
         self._split: Split | None = None  # as drawn last; holding it keeps its arrays' identities
 
@@ -99,7 +101,10 @@ class SplitView:
         )  # fmt: skip
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
             self._split = split
-            renderer.draw(scene, app.camera, look, view.size, quality=quality)
+            exposed = self._exposing.look(
+                renderer, scene, app.camera, look, view.size, moving=quality == "fast"
+            )
+            renderer.draw(scene, app.camera, exposed, view.size, quality=quality)
             self._drawn = (*wanted, quality)
         show(renderer, view)
         new_legend = app.second_legend is not renderer.legend
@@ -112,6 +117,7 @@ class SplitView:
         if app.face is not None and self._loaded is not app.face:
             self.renderer.load(app.face.rig)
             self._loaded, self._drawn = app.face, ()
+            self._exposing.forget()
         if app.form is not None:
             self.renderer.take(app.form)
         return self.renderer

@@ -141,6 +141,7 @@ class App:
     lab: Lab = field(default_factory=Lab)
     camera: Camera = field(default_factory=Camera)
     look: Look = field(default_factory=Look)
+    luminance_problem: str = ""  # why the face has not the luminance that was asked for
     form: Form | None = None  # the refined surface that the look's subdivision shows
     turntable: bool = False
     legend: Legend | None = None  # of the heat map as drawn last

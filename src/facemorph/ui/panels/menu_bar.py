@@ -54,6 +54,8 @@ def _submenus(app: App, menu: str, titles: tuple[str, ...], table: tuple[Command
         entries = [command for command in table if command.menu == f"{menu}/{title}"]
         if imgui.begin_menu(title, bool(entries)):
             for place, command in enumerate(entries):
+                if place and command.group != entries[place - 1].group:
+                    imgui.separator()
                 imgui.push_id(place)
                 _entry(app, command)
                 imgui.pop_id()

@@ -26,7 +26,7 @@ const float FIRST_SHIFT = -0.10;
 const float SECOND_SHIFT = 0.14;
 const float INSIDE = 0.60;             // of the light is left underneath
 // Alpha is kept a little above what is thrown away, so that thin ends fade and hide nothing after them.
-const float THINNEST = 0.18;
+const float THINNEST = 0.10;
 
 #ifdef TEXTURED
 // Along the strands towards their roots, across the surface's smooth normal: away from where v stays the same. Where u stays
@@ -60,7 +60,8 @@ vec3 shine(vec3 paint, vec3 n, vec3 half_way) {
     float first16 = first4 * first4;
     first16 *= first16;
     float reached = gloss * tone * smoothstep(-0.3, 0.7, dot(n, key_direction));
-    vec3 dyed = sqrt(albedo) * (0.4 + 0.6 * tone);
+    // Black hair swallows most of what has been inside it: else whole panels of it would turn grey.
+    vec3 dyed = sqrt(albedo) * (0.4 + 0.6 * tone) * min(0.45 + 4.0 * albedo.g, 1.0);
     return key_light * reached * (first16 * first4 * 0.10 + second * second * 0.16 * dyed);
 }
 #endif

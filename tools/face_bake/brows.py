@@ -8,7 +8,7 @@ import numpy as np
 import trimesh
 
 from .finemesh import FineMesh
-from .paintkit import Plane
+from .paintkit import Noise, Plane
 from .parts import PartGroup, Posed
 from .people import Look
 from .subdivide import vertex_normals
@@ -23,13 +23,18 @@ INNER = np.array([1, 0.7, 0.3, 0, 0, 0, 0])
 HALF_WIDTH = ([0, 0.16, 0.5, 0.75, 1], [0.015, 0.028, 0.027, 0.019, 0.006])
 # Degrees from the brow's line: hairs stand up near the nose and lie along the brow further out; those of
 # the upper rows turn down towards the others.
-LEAN = ([0, 0.14, 0.3, 0.6, 1], [66, 54, 34, 18, 6])
+LEAN = ([0, 0.14, 0.3, 0.6, 1], [80, 62, 36, 17, 4])
 UPPER_TURN = ([0, 0.2, 0.4, 1], [12, 30, 34, 16])
 # Strips a brow: places along it times rows across it; each is so many pairs of vertices long.
 PLACES, ROWS, PAIRS = 20, 2, 3
 TILES = 4
 # How much longer than the step to the next strip, and how far strips stand off at root and tip, dm.
 LENGTH = ([0, 0.15, 0.6, 1], [0.040, 0.066, 0.064, 0.050])
+# Half of a strip's width, dm.
+STRIP_WIDTH = ([0, 0.10, 0.25, 0.6, 1], [0.010, 0.024, 0.036, 0.032, 0.016])
+# Where along the brow hairs stand how closely: from the strip's tiles, and in the shade below them.
+TILE_OF = ([0, 0.12, 0.30, 0.55, 0.75, 1], [3.2, 1.9, 0.5, 0.3, 1.1, 2.4])
+SHADE = ([0, 0.10, 0.32, 0.58, 0.80, 1], [0.10, 0.45, 1.0, 0.95, 0.62, 0.25])
 # The shade below is darker and warmer than the hairs.
 UNDER = np.array([0.80, 0.66, 0.58], np.float32)
 LIFT = np.array([0.002, 0.009, 0.012])
@@ -143,8 +148,8 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
         u = u + 0.12 * row * (1 - u) ** 2
         fray = np.interp(u, [0, 0.25], [0.42, 0.16]) * (1 - 0.5 * row)
         across = (-0.60, np.interp(u, [0, 0.2], [-0.15, 0.10]))[row] + fray * rng.uniform(-1, 1, PLACES)
-        lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-7, 7, PLACES)
-        length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.85, 1.1, PLACES)
+        lean = np.interp(u, *LEAN) - row * np.interp(u, *UPPER_TURN) + rng.uniform(-13, 13, PLACES)
+        length = np.interp(u, *LENGTH) * look.brow_thickness**0.6 * rng.uniform(0.72, 1.15, PLACES)
         tangent, half = curve.direction(u), curve.half_width(u)
         normal = np.stack([-tangent[:, 1], tangent[:, 0]], -1)
         root = np.stack(curve.at(u), -1) + normal * (half * across)[:, None]
@@ -154,7 +159,7 @@ def _lines(look: Look) -> tuple[np.ndarray, np.ndarray]:
         steps = [np.stack([np.cos(turn), np.sin(turn)], -1) * length[:, None] / 2 for turn in turns.T]
         steps = [step[:, :1] * tangent + step[:, 1:] * normal for step in steps]
         lines.append(np.stack([root, root + steps[0], root + steps[0] + steps[1]], 1))
-        halves.append(np.interp(u, [0, 0.10, 0.25, 1], [0.008, 0.022, 0.036, 0.020]) * look.brow_thickness)
+        halves.append(np.interp(u, *STRIP_WIDTH) * look.brow_thickness * rng.uniform(0.7, 1.1, PLACES))
     one, half = np.concatenate(lines), np.concatenate(halves)
     return np.concatenate([one, one * [-1, 1]]), np.concatenate([half, half])[:, None, None]
 
@@ -169,7 +174,7 @@ def _uv(count: int) -> np.ndarray:
     """Strips take turns in the picture's tiles; roots at its top. The right brow mirrors the left."""
     strips = []
     for k in range(count):
-        tile, inset = (k * 3 + k // 5 + k // 7) % TILES, 0.02
+        tile, inset = _tile(k % (count // 2), k), 0.02
         sides = (tile + inset) / TILES, (tile + 1 - inset) / TILES
         left, right = sides if k < count // 2 else sides[::-1]
         v = np.linspace(0.98, 0.02, PAIRS)
@@ -177,16 +182,24 @@ def _uv(count: int) -> np.ndarray:
     return np.stack(strips).reshape(-1, 2)
 
 
+def _tile(strip: int, number: int) -> int:
+    """Which tile a strip of one brow shows: the sparser ones at its ends, yet no two neighbours alike."""
+    u = 1 - (strip % PLACES) / (PLACES - 1)
+    wanted = np.interp(u, *TILE_OF) + ((number * 5) % 7 - 3) * 0.28
+    return int(np.clip(np.round(wanted), 0, TILES - 1))
+
+
 def paint_brows(colour, points, look: Look) -> np.ndarray:
     """The soft shade under the hairs, over the skin colours (n, 3)."""
     curve, u = BrowCurve(look), np.linspace(0, 1, 50)
-    (x, y), half = curve.at(u), curve.half_width(u) * 0.8
+    (x, y), half = curve.at(u), curve.half_width(u) * 0.62
     outline = np.concatenate([np.c_[x, y + half], np.c_[x, y - half][::-1]])
-    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.013).polygon(outline).sampler()
+    shadow = Plane(0, 0.7, 7.3, 7.7, 700, blur=0.017).polygon(outline).sampler()
     front = points[:, 2] > 0.95
-    # The inner end begins with single hairs, which shade nothing.
-    begins = np.interp(np.abs(points[:, 0]), [x[0], x[0] + 0.13], [0.15, 1.0])
-    soft = np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.72, 0, 1) * begins
+    # Ends are single hairs, which shade nothing; between them no two places are alike.
+    closely = np.interp(np.abs(points[:, 0]), x, np.interp(u, *SHADE))
+    closely = closely * np.clip(0.85 + 0.30 * Noise(43).layered(points, 20, 2), 0.3, 1.2)
+    soft = np.clip(shadow(np.abs(points[:, 0]), points[:, 1]) * 0.68 * closely, 0, 1)
     soft = (soft * front)[:, None]
     under = np.array(look.brow, np.float32) * UNDER
-    return colour * (1 - soft) + (0.36 * colour + 0.42 * under) * soft
+    return colour * (1 - soft) + (0.40 * colour + 0.40 * under) * soft

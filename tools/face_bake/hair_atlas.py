@@ -22,11 +22,13 @@ TILES = 8
 SHEET_REPEATS = 3.0
 # v of the sheet's roots and tips; the border keeps mip levels of the tiles apart.
 BORDER = 4
+# Below a lock's tips it is empty, so that no mip level shows what lies on the other side of the border.
+MARGIN = 16
 SHEET_ROWS = 1 - BORDER / HEIGHT, 1 - (SHEET_HEIGHT - BORDER) / HEIGHT
 TONES, OPACITIES = 32, 8
 # Tiles from dense to thin: strands, and how much of half the tile they fill.
-DENSITY = (120, 105, 95, 80, 46, 34, 22, 12)
-SPREAD = (0.40, 0.38, 0.36, 0.34, 0.34, 0.32, 0.36, 0.30)
+DENSITY = (120, 105, 95, 80, 52, 44, 36, 28)
+SPREAD = (0.40, 0.38, 0.36, 0.34, 0.32, 0.29, 0.27, 0.22)
 CLUMPS = 46
 
 
@@ -34,7 +36,7 @@ def tile_box(tile: int) -> tuple[float, float, float, float]:
     """Left, bottom, right and top of a tile of locks."""
     width = WIDTH / TILES
     left, right = tile * width + BORDER, (tile + 1) * width - BORDER
-    return left / WIDTH, BORDER / HEIGHT, right / WIDTH, (TILE_HEIGHT - BORDER) / HEIGHT
+    return left / WIDTH, MARGIN / HEIGHT, right / WIDTH, (TILE_HEIGHT - BORDER) / HEIGHT
 
 
 def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
@@ -48,7 +50,9 @@ def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
     clump_swing = [swing(rows, rng, 7 * wave) for _ in range(CLUMPS)]
     short = texture.strand < 1
     strokes.opacity[:] = (
-        smoothstep(1 - 0.45 * texture.ragged, 1 - texture.ragged, rows)[:, None] if short else 1
+        texture.cover * smoothstep(1 - 0.45 * texture.ragged, 1 - texture.ragged, rows)[:, None]
+        if short
+        else 1
     )
     strokes.tone[:] = (0.6 * light)[:, None]
     for _ in range(int(1500 / texture.strand)):
@@ -63,7 +67,7 @@ def _straight_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
             length = texture.strand * rng.uniform(0.7, 1.2)
             start = rng.uniform(-texture.strand, 1)
             # Towards the hairline single hairs are left, and ever fewer.
-            if (start + length - 1) / texture.ragged + 0.55 > rng.uniform():
+            if (start + length - 1) / texture.ragged + 0.80 > rng.uniform():
                 continue
             t = (rows - start) / length
             # A short hair comes out of the dark and ends in a light tip over the next ones.
@@ -84,15 +88,15 @@ def _straight_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Str
     gather, shared = rng.uniform(0.35, 0.65), swing(rows, rng, 5 * wave)
     dark = rng.uniform(-0.05, 0.05)
     points = rng.uniform(-1, 1, 3) * spread * 0.7
-    for _ in range(DENSITY[tile]):
+    for _ in range(round(DENSITY[tile] * texture.density)):
         at = rng.uniform(-1, 1) * spread
         goal = points[np.argmin(np.abs(points - at))]
         place = at + (goal - at) * gather * rows**1.5
         x = width * (0.5 + place) + shared + swing(rows, rng, 1.2 + 2 * wave) * rows
-        length = np.clip(rng.normal(0.86, 0.10), 0.45, 1.0) - 0.10 * abs(at / spread)
-        thick = rng.uniform(1.0, 2.0) * np.clip(1.25 - rows / max(length, 0.1) * 0.8, 0.25, 1)
+        length = np.clip(rng.normal(0.80, 0.08), 0.45, 0.92) - 0.16 * abs(at / spread)
+        thick = rng.uniform(1.0, 2.0) * np.clip(1.25 - rows / max(length, 0.1) * 0.7, 0.55, 1)
         tone = 0.27 + 0.15 * smoothstep(0, 0.4, rows) + dark + rng.normal(0, 0.12 * texture.contrast)
-        opacity = smoothstep(length, length - 0.12, rows) * smoothstep(0.0, 0.10 + 0.35 * rng.uniform(), rows)
+        opacity = smoothstep(length, length - 0.22, rows) * smoothstep(0.0, 0.10 + 0.35 * rng.uniform(), rows)
         strokes.strand(x, thick, tone, opacity)
     return strokes
 
@@ -111,7 +115,7 @@ def _coiled_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
             start = rng.uniform(0, WIDTH), rng.uniform(-20, SHEET_HEIGHT)
             step = rng.normal(0, 1.2 * radius), rng.normal(0, 1.0 * radius)
             size = radius * rng.uniform(0.6, 1.2)
-            tone = (0.30, 0.30 + 0.20 * even, 0.30 + 0.42 * even)[layer] * rng.uniform(0.75, 1.2)
+            tone = (0.48, 0.50 + 0.20 * even, 0.54 + 0.38 * even)[layer] * rng.uniform(0.75, 1.2)
             coils.coil(start, step, (size, size * 0.55), rng.uniform(1.5, 3.5), tone, wide, rng)
     strokes = coils.strokes()
     strokes.tone *= tufts
@@ -126,18 +130,25 @@ def _coiled_sheet(texture: Texture, rng: np.random.Generator) -> Strokes:
 
 
 def _coiled_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Strokes:
-    """A tuft of coils that thins out towards its end and its sides."""
+    """A tuft of coils, closest in its middle; single ones stand out of its outline all round."""
     width = WIDTH // TILES
-    coils, radius = Coils(width, TILE_HEIGHT), texture.curl * 0.62
-    for k in range(DENSITY[tile] * 2 // 3 + 8):
-        out = rng.beta(1.3, 1.8)
-        across = np.clip(rng.normal(0, 0.16), -0.34, 0.34) * (1.15 - 0.5 * out)
-        start = width * (0.5 + across), 14 + out * (TILE_HEIGHT - 64)
-        step = rng.normal(0, 5), rng.uniform(-16, 26)
-        tone = (0.40 + 0.5 * k / DENSITY[tile]) * (0.3 + 0.7 * texture.contrast) * rng.uniform(0.8, 1.2)
-        size = radius * rng.uniform(0.7, 1.25)
-        coils.coil(start, step, (size, size * 2.2), rng.uniform(1.2, 2.6), tone, 1.5, rng)
-    return coils.strokes()
+    coils, radius = Coils(width, TILE_HEIGHT), 5 + 0.45 * texture.curl
+    count = 60 + DENSITY[tile] // 2
+    for k in range(count):
+        away, angle = 0.98 * rng.beta(1.5, 1.5), rng.uniform(0, 2 * np.pi)
+        start = (
+            width * (0.5 + 0.34 * away * np.cos(angle)),
+            TILE_HEIGHT * (0.44 + 0.34 * away * np.sin(angle)),
+        )
+        step = rng.normal(0, 6), rng.normal(0, 12)
+        tone = (0.40 + 0.45 * texture.contrast * k / count) * rng.uniform(0.8, 1.2)
+        size = radius * rng.uniform(0.7, 1.2)
+        coils.coil(start, step, (size, size * 1.6), rng.uniform(1.0, 2.0), tone, 2.6, rng)
+    strokes = coils.strokes()
+    across = (np.arange(width) + 0.5) / width - 0.5
+    away = np.hypot(across[None] / 0.46, (strokes.rows[:, None] - 0.44) / 0.46)
+    strokes.opacity *= smoothstep(1.0, 0.55, away)
+    return strokes
 
 
 def hair_picture(look: Look) -> Image.Image:
@@ -167,7 +178,9 @@ def _with_palette(tone: np.ndarray, opacity: np.ndarray, look: Look) -> Image.Im
 
 def lightest(look: Look) -> np.ndarray:
     """The lightest strand's colour (3,), sRGB 0..1."""
-    return np.clip(np.array(look.hair) * 1.75 + 0.06, 0, 1)
+    # Coils turn some of their strands to every lamp: no sheen, but no part of them is quite black either.
+    lifted = 0.17 if STYLES[look.hair_style].texture.curl else 0.06
+    return np.clip(np.array(look.hair) * 1.75 + lifted, 0, 1)
 
 
 def hair_material(look: Look) -> tuple:

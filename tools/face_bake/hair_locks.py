@@ -8,6 +8,8 @@ from .hair_styles import Locks
 
 # A lock is so many pairs of vertices long.
 PAIRS = 6
+# No lock leaves the sheet sideways: it would lie on bare skin.
+ASIDE = 0.007
 
 
 class LockValues:
@@ -40,7 +42,7 @@ def _spread(limits: tuple, count: int, rng: np.random.Generator, *, even: bool) 
 def place_locks(sheet: Sheet, values: LockValues) -> np.ndarray:
     """Strips (count, PAIRS, 2, 3) in the sheet's space."""
     s = np.linspace(0, 1, PAIRS)
-    c = values.c[:, None] + values.drift[:, None] * s**1.5
+    c = np.clip(values.c[:, None] + values.drift[:, None] * s**1.5, ASIDE, 1 - ASIDE)
     t = values.t[:, None] + values.reach[:, None] * s
     points, normals, along = sheet.at(c, t)
     lift = values.root_lift[:, None] * (1 - s) + values.tip_lift[:, None] * s**1.3

@@ -58,7 +58,8 @@ class Texture:
     """How strands are painted: wave 0..1 or, with curl, coils of so many pixels' radius.
 
     contrast: between strands; ragged: share of the sheet in which its tips end; strand: how much of the
-    sheet's length a strand is long; gloss: how much it shines.
+    sheet's length a strand is long; gloss: how much it shines; cover: opacity of the sheet between strands;
+    density: of the strands in locks.
     """
 
     wave: float = 0.3
@@ -67,6 +68,8 @@ class Texture:
     ragged: float = 0.10
     strand: float = 1.0
     gloss: float = 1.0
+    cover: float = 1.0
+    density: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -94,7 +97,7 @@ class Style:
     gap: float = 0.004
     ball: float = 0.0
     taper: tuple = ((0, 1.0), (180, 1.0))
-    soft: tuple = ((0, 5.0), (180, 5.0))
+    soft: tuple = ((0, 8.0), (180, 8.0))
     scalp: float = 0.96
     texture: Texture = Texture()
 

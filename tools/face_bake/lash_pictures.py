@@ -9,12 +9,15 @@ from .paintkit import smoothstep
 from .people import Look
 
 BROW_TILE, BROW_HEIGHT, BROW_TILES = 128, 192, 4
+# How closely hairs stand in each tile, next to the densest part of a brow.
+BROW_DENSITY = (1.22, 1.06, 0.90, 0.68)
 LASH_WIDTH, LASH_HEIGHT = 512, 96
 
 
 def brow_material(look: Look) -> tuple:
     """Colour (linear light), shine, exponent and picture."""
-    return _dyed(np.clip(np.array(look.brow) * (1.30, 1.15, 1.02), 0, 1), "brow.png")
+    # Hairs as fine as these let light through: softer and warmer than what grows on the head.
+    return _dyed(np.clip(np.array(look.brow) * (1.32, 1.18, 1.06) + (0.055, 0.042, 0.034), 0, 1), "brow.png")
 
 
 def lash_material(look: Look) -> tuple:
@@ -35,21 +38,26 @@ def _picture(strokes: Strokes) -> Image.Image:
 def brow_picture(look: Look) -> Image.Image:
     """Tiles of hairs that grow downwards in the picture and taper to their tips."""
     rng, whole = np.random.default_rng(31), Strokes(BROW_TILE * BROW_TILES, BROW_HEIGHT, ground=0.8)
-    hairs = round(24 * look.brow_density)
     for tile in range(BROW_TILES):
+        hairs = round(30 * look.brow_density * BROW_DENSITY[tile])
         for k in range(hairs):
             rows = whole.rows
             at = (k + rng.uniform(0.2, 0.8)) / hairs
             # Hairs at a tile's sides are short and faint, so that tufts run into each other.
             side = smoothstep(0.0, 0.3, min(at, 1 - at))
-            start, length = rng.uniform(-0.08, 0.48), rng.uniform(0.38, 0.66) * (0.7 + 0.3 * side)
+            start, length = rng.uniform(-0.08, 0.45), rng.uniform(0.34, 0.78) * (0.7 + 0.3 * side)
             t = (rows - start) / length
-            bend = rng.normal(0, 9) * np.clip(t, 0, 1) ** 2 + rng.normal(0, 7) * np.clip(t, 0, 1)
+            bend = rng.normal(0, 11) * np.clip(t, 0, 1) ** 2 + rng.normal(0, 10) * np.clip(t, 0, 1)
             x = tile * BROW_TILE + 3 + at * (BROW_TILE - 6) + bend
             x = np.clip(x, tile * BROW_TILE + 2, (tile + 1) * BROW_TILE - 2)
-            width = 3.4 * np.clip(1 - t, 0.05, 1) ** 0.6 * rng.uniform(0.7, 1.25)
-            opacity = (0.62 + 0.26 * side) * smoothstep(0.0, 0.10, t) * smoothstep(1.0, 0.75, t)
-            tone = 0.52 + 0.22 * np.clip(t, 0, 1) + rng.normal(0, 0.13)
+            width = 3.1 * np.clip(1 - t, 0.05, 1) ** 0.6 * rng.uniform(0.55, 1.25)
+            opacity = (
+                (0.58 + 0.26 * side)
+                * rng.uniform(0.7, 1.15)
+                * smoothstep(0.0, 0.10, t)
+                * smoothstep(1.0, 0.75, t)
+            )
+            tone = 0.54 + 0.22 * np.clip(t, 0, 1) + rng.normal(0, 0.16)
             whole.strand(x, width, tone, opacity)
     return _picture(whole)
 

@@ -174,4 +174,4 @@ def _hair_of(material: Material) -> Finish:
     shine = min(max(sum(material.specular), 0.0), 1.5) / 0.9
     # Smooth locks lie on other hair, tufts of coils stand off it and are seen from behind too.
     one_sided = "lock" in material.name.casefold() and shine > 0.5
-    return replace(HAIR, gloss=HAIR.gloss * shine, one_sided=one_sided)
+    return replace(HAIR, gloss=HAIR.gloss * shine, sheen=HAIR.sheen * min(shine, 1.0), one_sided=one_sided)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 
@@ -23,8 +24,11 @@ class SidedUnits:
     def __init__(self, rig: Rig) -> None:
         self._rig = rig
         self._index = {shape.name: k for k, shape in enumerate(rig.shapes)}
-        # How much of a delta belongs to the left beyond one half, (V, 1): 1/2 at the far left, -1/2 right.
-        self._lean: Float32 = (left_weights(rig) - np.float32(0.5))[:, None]
+
+    @cached_property
+    def _lean(self) -> Float32:
+        """How much of a delta belongs to the left beyond one half, (V, 1): 1/2 far left, -1/2 right."""
+        return (left_weights(self._rig) - np.float32(0.5))[:, None]
 
     def __call__(self, units: Mapping[int, Sides]) -> Contribution:
         """The mean of both sides as a weight, and what the sides differ by as offsets.

@@ -1,9 +1,9 @@
-"""Pictures for materials: read by Pillow, decoded to linear light in the shader, mipmapped by GL."""
+"""Pictures for materials: read by Pillow, decoded to linear light in the shader."""
 
 from __future__ import annotations
 
 import warnings
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from facemorph.core.arrays import UInt8
 from facemorph.core.mesh import Material
 from facemorph.core.picture import PICTURE_FORMATS
 from facemorph.errors import GraphicsError
+from facemorph.gl.mipmaps import mip_levels, mipmapped
 
 if TYPE_CHECKING:
     import moderngl
@@ -22,8 +23,10 @@ if TYPE_CHECKING:
 LARGEST_SIDE = 4096
 ANISOTROPY = 8.0
 LARGEST_PIXELS = 16384 * 16384
-# Of the small copies that tell what a picture is of; Pillow's number for its box filter.
+# Of the small copies that tell what a picture is of. They are shrunk from a level with that many times the
+# side: levels are rounded, each a little upwards. Pillow's number for its box filter.
 SMALL_SIDE = 64
+_SPARE = 2
 _BOX = 4
 
 
@@ -39,7 +42,7 @@ class Textures:
         self._anisotropy = 1.0 if software else min(ANISOTROPY, float(ctx.max_anisotropy))
         self._read: dict[Path, moderngl.Texture | None] = {}
         self._problems: dict[Path, str] = {}
-        self._small: dict[Path, UInt8] = {}
+        self._shrunk: dict[Path, Picture] = {}
 
     @property
     def problems(self) -> tuple[str, ...]:
@@ -64,7 +67,13 @@ class Textures:
 
     def small(self, path: Path) -> UInt8 | None:
         """The picture at `path` shrunk to `SMALL_SIDE` a side, (n, n, channels) sRGB, bottom row first."""
-        return self._small.get(path) if self.at(path) is not None else None
+        if self.at(path) is None:
+            return None
+        shrunk = self._shrunk[path]
+        if shrunk.size != (SMALL_SIDE, SMALL_SIDE):
+            shrunk = shrunk.resize((SMALL_SIDE, SMALL_SIDE), _BOX)
+            self._shrunk[path] = shrunk
+        return np.asarray(shrunk, np.uint8).reshape(SMALL_SIDE, SMALL_SIDE, -1)[::-1]
 
     def holds_normals(self, path: Path | None) -> bool:
         """Whether the picture is of normals, which are blue, and not of heights, which are grey."""
@@ -76,17 +85,24 @@ class Textures:
 
     def _load(self, path: Path) -> moderngl.Texture:
         """Read the picture at `path`. Raises `GraphicsError`."""
-        picture = _read(path)
-        shrunk = picture.resize((SMALL_SIDE, SMALL_SIDE), _BOX, reducing_gap=1.0)
-        self._small[path] = np.asarray(shrunk, np.uint8).reshape(SMALL_SIDE, SMALL_SIDE, -1)
-        return _texture_of(self._ctx, picture, self._anisotropy)
+        texture = mipmapped(self._ctx, self._noted(path, mip_levels(_read(path))))
+        if self._anisotropy > 1.0:
+            texture.anisotropy = self._anisotropy
+        return texture
+
+    def _noted(self, path: Path, levels: Iterable[Picture]) -> Iterator[Picture]:
+        """The levels, the smallest that is large enough for a small copy noted as they pass."""
+        for level in levels:
+            if path not in self._shrunk or min(level.size) >= _SPARE * SMALL_SIDE:
+                self._shrunk[path] = level
+            yield level
 
     def keep(self, paths: Collection[Path]) -> None:
         """Give back the textures of other paths to the context."""
         for path in [path for path in self._read if path not in paths]:
             texture = self._read.pop(path)
             self._problems.pop(path, None)
-            self._small.pop(path, None)
+            self._shrunk.pop(path, None)
             if texture is not None:
                 texture.release()
 
@@ -95,22 +111,12 @@ class Textures:
         self.keep(())
 
 
-def _texture_of(ctx: moderngl.Context, picture: Picture, anisotropy: float) -> moderngl.Texture:
-    """A mipmapped texture, bottom row first."""
-    components = len(picture.getbands())
-    texture = ctx.texture(picture.size, components, picture.tobytes())
-    if components == 1:
-        texture.swizzle = "RRR1"
-    texture.build_mipmaps()
-    texture.filter = (ctx.LINEAR_MIPMAP_LINEAR, ctx.LINEAR)
-    if anisotropy > 1.0:
-        texture.anisotropy = anisotropy
-    return texture
-
-
 def _read(path: Path) -> Picture:
+    """The picture at `path` as L, RGB or RGBA, no larger than a texture may be. Raises `GraphicsError`."""
     from PIL import Image
 
+    # Without it Pillow loads its readers of all formats, as soon as it has to try more than one.
+    Image.preinit()
     try:
         with warnings.catch_warnings(), Image.open(path, formats=PICTURE_FORMATS) as opened:
             warnings.simplefilter("ignore", Image.DecompressionBombWarning)
@@ -121,11 +127,14 @@ def _read(path: Path) -> Picture:
             opened.draft("RGB", (LARGEST_SIDE, LARGEST_SIDE))
             see_through = "A" in opened.getbands() or "transparency" in opened.info
             grey = opened.mode == "L" and not see_through
-            picture: Picture = opened.convert("RGBA" if see_through else "L" if grey else "RGB")
+            mode = "RGBA" if see_through else "L" if grey else "RGB"
+            opened.load()
+            # A picture of the wanted mode would be copied.
+            picture: Picture = opened if opened.mode == mode else opened.convert(mode)
     except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise GraphicsError(
             f"{path}: the texture cannot be read ({error}); a plain colour stands in."
         ) from error
     if max(picture.size) > LARGEST_SIDE:
         picture.thumbnail((LARGEST_SIDE, LARGEST_SIDE), reducing_gap=2.0)
-    return picture.transpose(Image.Transpose.FLIP_TOP_BOTTOM)
+    return picture

@@ -67,10 +67,11 @@ _SINGLE = (frame_toml.KEY,)  # tables of which there is one
 class DescribedFace:
     """What a `face.toml` says: the neutral, each shape and its file in order, and perhaps a `shapes.npz`.
 
-    `unlisted` are the meshes in the folder that its expressions leave out.
+    `unlisted` are the meshes in the folder that its expressions leave out, `table` is all it says.
     """
 
     folder: Path
+    table: Table
     neutral: Path
     shapes: tuple[tuple[Shape, Path], ...]
     more: Path | None
@@ -101,7 +102,7 @@ def described(folder: Path) -> DescribedFace:
         neutral = _neutral(folder, table)
         by_name = shapes_of(neutral, _meshes(folder), f"{folder}")
         shapes = [(Shape(name, plain_label(name)), path) for name, path in by_name.items()]
-        return DescribedFace(folder, neutral, tuple(shapes), more, ())
+        return DescribedFace(folder, table, neutral, tuple(shapes), more, ())
     neutral = _file(folder, table, "neutral", _NEUTRAL_FILE)
     names = [entry.text("name") for entry in entries]
     shapes = [
@@ -113,7 +114,7 @@ def described(folder: Path) -> DescribedFace:
     ]
     listed = {path.resolve() for path in (neutral, *(path for _, path in shapes))}
     unlisted = tuple(path for path in _meshes(folder) if path.resolve() not in listed)
-    return DescribedFace(folder, neutral, tuple(shapes), more, unlisted)
+    return DescribedFace(folder, table, neutral, tuple(shapes), more, unlisted)
 
 
 def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: MoreShapes | None) -> Rig:
@@ -121,7 +122,7 @@ def described_rig(face: DescribedFace, neutral: Mesh, deltas: Float32, more: Mor
 
     Raises `FaceFolderError` where what `face.toml` says does not fit them.
     """
-    table = _table(face.folder)
+    table = face.table
     info = _info(face.folder, table, neutral)
     rules = correctives_toml.read_correctives(table)
     wrinkles = wrinkles_toml.read_wrinkles(table)

@@ -20,6 +20,8 @@ def picture_problem(path: Path) -> str | None:
     """
     from PIL import Image, UnidentifiedImageError
 
+    # Without it Pillow loads its readers of all formats, as soon as it has to try more than one.
+    Image.preinit()
     try:
         size = path.stat().st_size
         if size == 0:

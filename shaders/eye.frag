@@ -19,7 +19,8 @@ in vec3 surface_position;
 const float LIMBUS_IN_PICTURE = 0.27;
 const float CORNEA = 1.33;             // its radius, the limbus's being 1
 const float DEPTH = 0.46;              // of the iris's middle below it
-const float SOCKET = 0.80;              // light that brow, nose and cheek leave the white
+const float SOCKET = 0.72;              // light that brow, nose and cheek leave the white
+const float GLARE = 0.014;              // lights made strong for dark skin would let the white glare
 const vec3 CARUNCLE = vec3(0.46, 0.16, 0.13);
 const float INTO_EYE = 1.0 / 1.336;    // refractive index of air over that of the aqueous humour
 
@@ -48,17 +49,19 @@ vec2 from_lids(int eye, vec3 place) {
 
 // What the lids let through: softly dark below the upper one and its lashes, a little above the lower one.
 float beside_lids(float below, float above) {
-    float lashes = 1.0 - 0.62 * exp2(-max(below, 0.0) * 9.0);
-    float margin = 1.0 - 0.45 * exp2(-max(above, 0.0) * 26.0);
+    float lashes = 1.0 - 0.66 * exp2(-max(below - 0.04, 0.0) * 7.5);
+    float margin = 1.0 - 0.55 / (1.0 + exp2(above * 18.0));
     // Towards the corners the lids close in.
     float corner = smoothstep(-0.05, 0.42, below + above);
     return lashes * margin * (0.55 + 0.45 * corner);
 }
 
-// The caruncle: a pink mound that fills the corner next to the nose, 0..1.
-float caruncle(int eye, vec3 place, float opening) {
+// The caruncle: a pink mound that fills the corner next to the nose, 0..1; `above` the middle between the
+// lids it narrows.
+float caruncle(int eye, vec3 place, float opening, float above) {
     float nasal = eye == 0 ? place.x - lid_span[0].x : lid_span[1].y - place.x;
-    return (1.0 - smoothstep(-0.02, 0.075, nasal)) * smoothstep(-0.04, 0.06, opening);
+    float away = nasal + 0.3 * max(above, -0.02);
+    return (1.0 - smoothstep(-0.05, 0.06, away)) * smoothstep(-0.04, 0.06, opening);
 }
 
 #ifdef TEXTURED
@@ -83,14 +86,15 @@ vec3 eyeball(int eye, vec3 n, vec3 view, inout vec4 paint) {
     // The iris lies flat behind the cornea, which gathers light on the side away from the lamp.
     vec3 lit_normal = normalize(mix(n, forward, 0.75 * clear));
     vec3 light = open_light(lit_normal);
-    // Lights made strong for dark skin would let the white of the eye glare.
-    light *= mix(SOCKET / (1.0 + 0.24 * light.g), 0.85, clear);
+    float lamps = key_light.g + fill_light.g + sky_light.g;
+    lamps *= lamps;
+    light *= mix(SOCKET / (1.0 + GLARE * lamps * lamps), 0.85, clear);
     vec2 lamp = vec2(dot(key_direction, right), dot(key_direction, up));
     light *= 1.0 + clear * (0.15 - 0.75 * dot(on_iris, lamp));
     vec3 place = (surface_position - eye_centre[eye]) / eye_radius[eye];
     vec2 lids = from_lids(eye, place);
     float open = beside_lids(lids.x, lids.y);
-    float mound = caruncle(eye, place, lids.x + lids.y) * (1.0 - clear);
+    float mound = caruncle(eye, place, lids.x + lids.y, 0.5 * (lids.y - lids.x)) * (1.0 - clear);
     paint.rgb = mix(paint.rgb, CARUNCLE * (0.7 + 0.3 * paint.rgb), mound);
     // Blood in the lids reddens what shade they leave.
     vec3 seen = paint.rgb * light * pow(vec3(open), vec3(0.90, 1.04, 1.08));

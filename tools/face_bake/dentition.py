@@ -19,7 +19,7 @@ from .tooth_shapes import (
 
 MILLIMETRE = 0.01
 # Contacts lie inside of the arch's outline, where a turn is shorter.
-SPREAD = 1.015
+SPREAD = 0.995
 # How far a tooth strays: turned and tilted (degrees), set in or out and longer or shorter (millimetres).
 STRAY = (2.6, 1.3, 0.14, 0.16)
 
@@ -73,7 +73,7 @@ def placed(arch: Arch, person: str, upper: bool) -> list[ToothPlace]:
         outwards = np.array([turned[0], 0, turned[1]])
         crownwards = np.array([0, -1.0 if upper else 1.0, 0]) + np.tan(np.radians(tilt)) * across
         height = arch.edge_at(place[1]) - (kinds[k].lift + extra) * MILLIMETRE * crownwards[1]
-        origin = np.array([place[0], height, place[1]]) + outwards * step * MILLIMETRE
+        origin = np.array([place[0], height, place[1]]) + outwards * (step + kinds[k].ahead) * MILLIMETRE
         scale = arch.scale
         result.append(ToothPlace(row[k], origin, across * scale, crownwards * scale, outwards * scale))
     return result

@@ -8,8 +8,8 @@ from .people import Look
 from .tooth_shapes import FRONT_AROUND, FRONT_COLUMNS
 
 TEETH = 14
-IVORY, ROOT, EDGE = np.array([0.96, 0.91, 0.80]), np.array([0.90, 0.79, 0.61]), np.array([0.88, 0.875, 0.84])
-AGED = np.array([0.965, 0.94, 0.88])
+IVORY, ROOT, EDGE = np.array([0.985, 0.925, 0.815]), np.array([0.93, 0.81, 0.64]), np.array([0.84, 0.85, 0.84])
+AGED = np.array([0.97, 0.935, 0.87])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])
 PIGMENT = np.array([0.62, 0.52, 0.50])
 TONGUE, TONGUE_TIP = np.array([0.66, 0.38, 0.37]), np.array([0.65, 0.34, 0.34])
@@ -34,7 +34,7 @@ def teeth_picture(look: Look, width: int = 896, height: int = 192) -> Image.Imag
     places = np.arange(FRONT_COLUMNS) / len(FRONT_AROUND)
     across = np.interp(turn, places, FRONT_AROUND[:FRONT_COLUMNS])
     behind = smoothstep(0.5, 0.56, turn) * smoothstep(1.0, 0.94, turn)
-    root, edge = smoothstep(0.42, -0.02, crown), smoothstep(0.70, 1.0, crown)
+    root, edge = smoothstep(0.42, -0.02, crown), smoothstep(0.76, 1.0, crown)
     front_tooth = smoothstep(4.6, 3.6, np.abs(tooth - 6.5))
     colours = IVORY * (1 - root[..., None]) + ROOT * root[..., None]
     colours = _blend(colours, EDGE, 0.65 * edge * front_tooth)
@@ -42,13 +42,13 @@ def teeth_picture(look: Look, width: int = 896, height: int = 192) -> Image.Imag
     canine = np.isin(tooth, (4, 9))[..., None]
     own = noise(np.stack([tooth * 1.7, np.floor(v * 2) * 3.1, 0 * u], -1), 1)[..., None]
     colours = (
-        colours * np.where(canine, [0.985, 0.97, 0.935], 1.0) * (1 + own * np.array([0.008, 0.011, 0.018]))
+        colours * np.where(canine, [0.98, 0.955, 0.91], 1.0) * (1 + own * np.array([0.008, 0.011, 0.018]))
     )
     grain = noise(np.stack([across * 6 + tooth * 5, crown * 1.3, v], -1), 1)
     clouds = noise(np.stack([across * 1.5 + tooth * 9, crown * 3, v * 2], -1), 1)
     colours = colours * (1 + 0.010 * grain + 0.016 * clouds)[..., None]
     # Where crowns touch, and round their necks, little light comes in; what does is red from the gums.
-    contact = smoothstep(0.76, 1.0, np.where(turn > 0.5, np.abs(4 * turn - 3), np.abs(across)))
+    contact = smoothstep(0.84, 1.0, np.where(turn > 0.5, np.abs(4 * turn - 3), np.abs(across)))
     neck = smoothstep(0.16, 0.0, crown)
     colours = colours * (1 - (0.44 * contact * smoothstep(1.02, 0.85, crown))[..., None] * [0.8, 1.0, 1.08])
     colours = colours * (1 - (0.40 * neck)[..., None] * [0.55, 1.0, 1.05])

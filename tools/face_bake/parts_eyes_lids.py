@@ -5,17 +5,20 @@ far. Here the offsets are scaled along the lid until the edges meet, so that hal
 """
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
-from .parts_eyes_ball import EYE_VERTICES, fit_sphere
+from .parts_eyes_ball import EYE_VERTICES
 from .source import BaseMesh, Source
 from .strips import grid_of
 
 BLINK, BLINK_SIDES = "eyeBlink", ("eyeBlinkLeft", "eyeBlinkRight")
 LASH_STRIPS = ("helper-{side}-eyelashes-2", "helper-{side}-eyelashes-1")
 # The closed upper lid laps over the lower one by so much, in decimetres.
-OVERLAP = 0.012
-# Beyond these the offsets would not be a blink any more.
-LEAST, MOST = 0.2, 1.4
+OVERLAP = 0.004
+# Beyond these the offsets would not be a blink any more; below that share of the largest they tell nothing.
+LEAST, MOST, TELLING = 0.2, 1.3, 0.12
+# The ring of vertices along a lid that is its edge.
+EDGE_RING = 2
 
 # What MakeHuman's look units lack: lids go with the eye, so much of another unit for each of theirs.
 FOLLOW = {"eyeLookUp": ("eyeWide", 0.45), "eyeLookDown": (BLINK, 0.13)}
@@ -43,28 +46,34 @@ def lash_grids(base: BaseMesh, side: int) -> list[np.ndarray]:
     return grids
 
 
+def edges_of(base: BaseMesh, columns: np.ndarray) -> list[np.ndarray]:
+    """Base-mesh vertices of the upper and the lower lid's edge, right to left, from a side's columns."""
+    rim = base.points[columns[:, 0], 1]
+    edge = columns[:, EDGE_RING]
+    halves = (edge[rim >= rim.mean()], edge[rim < rim.mean()])
+    return [half[np.argsort(base.points[half, 0])] for half in halves]
+
+
 class BlinkFit:
     """Blinks that close any shape of any person's lids."""
 
-    def __init__(self, source: Source):
+    def __init__(self, source: Source, columns: list[np.ndarray]):
+        """columns: of each side's lids as `LidRings` has them."""
         self._moves = [source.arkit(name) for name in BLINK_SIDES]
-        self._rows = [[grid[0] for grid in lash_grids(source.base, side)] for side in (0, 1)]
+        self._rows = [edges_of(source.base, rings) for rings in columns]
 
     def offsets(self, weights: np.ndarray, start: np.ndarray) -> np.ndarray:
         """Offsets (19158, 3) of both sides' blinks, from a shape (19158, 3) with whatever else moves it."""
         return sum(weights[side] * self._fitted(side, start) for side in (0, 1) if weights[side])
 
     def _fitted(self, side: int, start: np.ndarray) -> np.ndarray:
-        """The blink's offsets, scaled by a cubic along the lid: what closes it at each place."""
+        """The blink's offsets, scaled along the lid by what closes it at each place."""
         upper, lower = self._rows[side]
         edge, drop = start[upper], -self._moves[side][upper, 1]
-        floor = np.interp(edge[:, 0], start[lower, 0], start[lower, 1])
+        below = start[lower][np.argsort(start[lower, 0], kind="stable")]
+        floor = np.interp(edge[:, 0], below[:, 0], below[:, 1])
         share = (edge[:, 1] - floor + OVERLAP) / np.maximum(drop, 1e-4)
-        centre = fit_sphere(start[EYE_VERTICES[side]])[0][0]
-        half = np.abs(edge[:, 0] - centre).max()
-        curve = np.polyfit((edge[:, 0] - centre) / half, share, 3, w=drop)
-        # A cubic through all of them leaves some open: the worst of them is closed too.
-        worst = (share - np.polyval(curve, (edge[:, 0] - centre) / half))[drop > 0.5 * drop.max()].max()
-        curve[-1] += max(worst, 0.0)
-        place = np.clip((start[:, 0] - centre) / half, -1, 1)
-        return self._moves[side] * np.clip(np.polyval(curve, place), LEAST, MOST)[:, None]
+        telling = np.flatnonzero(drop > TELLING * drop.max())
+        order, first = np.unique(edge[telling, 0], return_index=True)
+        along = PchipInterpolator(order, np.clip(share[telling][first], LEAST, MOST))
+        return self._moves[side] * along(np.clip(start[:, 0], order[0], order[-1]))[:, None]

@@ -23,7 +23,7 @@ class Shaper:
             offsets = offsets + weight * self._detail(name)
         offsets = offsets + self.offsets(person.rest)
         self.neutral = lids.thickened(seal.close(source.base.points + offsets))
-        self._blink = BlinkFit(source)
+        self._blink = BlinkFit(source, lids.columns)
         self._jaw = Jaw(self.neutral, self._term("arkit", OPENING))
 
     def offsets(self, recipe: dict) -> np.ndarray:

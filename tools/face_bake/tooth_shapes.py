@@ -16,7 +16,8 @@ from .polygons import NONE
 @dataclass(frozen=True)
 class ToothKind:
     """width, length, depth: of the crown; cusp: how far the edge falls off from its tip; lean: degrees
-    that the crown leans outwards; lift: its edge above the plane of the bite."""
+    that the crown leans outwards; lift: its edge above the plane of the bite; ahead: how far it stands out
+    of the arch."""
 
     width: float
     length: float
@@ -24,13 +25,14 @@ class ToothKind:
     cusp: float
     lean: float
     lift: float = 0.0
+    ahead: float = 0.0
 
 
 # Half an arch from the middle outwards: two incisors, canine, two premolars, two molars.
 UPPER = (
     ToothKind(8.5, 10.2, 6.6, 0.00, 9, 0.0),
-    ToothKind(6.7, 8.9, 5.8, 0.03, 9, 0.6),
-    ToothKind(7.7, 9.9, 7.4, 0.17, 5, 0.0),
+    ToothKind(6.7, 8.9, 5.8, 0.03, 9, 0.6, -0.25),
+    ToothKind(7.7, 9.9, 7.4, 0.17, 5, 0.0, 0.30),
     ToothKind(7.0, 8.3, 8.6, 0.15, 2, 0.4),
     ToothKind(6.8, 7.8, 8.8, 0.12, 0, 0.7),
     ToothKind(10.0, 7.2, 10.6, 0.10, 0, 0.8),

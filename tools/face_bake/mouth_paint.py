@@ -36,20 +36,30 @@ def paint_lining(colour: np.ndarray, canvas: "Canvas", mottling: np.ndarray, loo
     inner = 0.5 * (INNER_LIP + np.minimum(lips * [1.0, 0.9, 0.9], INNER_LIP))
     lining = mix(inner + 0 * colour, CHEEK, smoothstep(*CHEEK_BEGINS, depth))
     lining = mix(lining, lips, 1 - smoothstep(*LIP_FADES, depth))
-    colour = _shaded_lips(colour, canvas, depth)
+    colour = _shaded_lips(colour, canvas)
     return mix(colour, lining * (1 + 0.07 * mottling[:, None]), canvas.mouth)
 
 
-def _shaded_lips(colour: np.ndarray, canvas: "Canvas", depth: np.ndarray) -> np.ndarray:
-    """Colours (p, 3) darker and redder towards the lips' rim and in their corners; depth (p,) of the lining."""
-    inside = canvas.mouth > 0
+def _shaded_lips(colour: np.ndarray, canvas: "Canvas") -> np.ndarray:
+    """Colours (p, 3) darker and redder towards the lips' rim and in their corners."""
+    return tint(tint(colour, rim_of(canvas), RIM_SHADE), corners_of(canvas), CORNER_SHADE)
+
+
+def rim_of(canvas: "Canvas") -> np.ndarray:
+    """How near the rim, behind where they meet, a place of the lips is (p,): 1 on it, 0 where they show."""
+    rim, inside = np.zeros(len(canvas.points), np.float32), canvas.mouth > 0
     near = np.flatnonzero((canvas.lips > 0.05) & ~inside)
-    edge = canvas.points[inside & (depth < RIM_BAND)]
-    away = cKDTree(edge[:: max(len(edge) // 12000, 1)]).query(canvas.points[near])[0]
-    rim = np.zeros(len(colour), np.float32)
-    rim[near] = 1 - smoothstep(0.0, RIM_REACH, away)
-    colour = tint(colour, rim, RIM_SHADE)
+    if not inside.any() or not len(near):
+        return rim
+    lips = canvas.points[near]
+    lining = canvas.points[inside]
+    edge = lining[cKDTree(lips[:: max(len(lips) // 4000, 1)]).query(lining)[0] < RIM_BAND]
+    rim[near] = 1 - smoothstep(0.0, RIM_REACH, cKDTree(edge).query(lips)[0])
+    return rim
+
+
+def corners_of(canvas: "Canvas") -> np.ndarray:
+    """How near a corner of the mouth a place of the skin is (p,), softly from 1 to 0."""
     x, y, z = canvas.points.T
     aside, up = (np.abs(x) - CORNER[0]) / CORNER_REACH[0], (y - CORNER[1]) / CORNER_REACH[1]
-    corner = np.exp(-(aside**2) - up**2) * (z > CORNER_FRONT) * ~inside
-    return tint(colour, corner, CORNER_SHADE)
+    return np.exp(-(aside**2) - up**2) * (z > CORNER_FRONT) * (canvas.mouth == 0)

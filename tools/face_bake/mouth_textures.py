@@ -8,7 +8,11 @@ from .people import Look
 from .tooth_shapes import FRONT_AROUND, FRONT_COLUMNS
 
 TEETH = 14
-IVORY, ROOT, EDGE = np.array([0.985, 0.925, 0.815]), np.array([0.93, 0.81, 0.64]), np.array([0.84, 0.85, 0.84])
+IVORY, ROOT, EDGE = (
+    np.array([0.985, 0.925, 0.815]),
+    np.array([0.93, 0.81, 0.64]),
+    np.array([0.84, 0.85, 0.84]),
+)
 AGED = np.array([0.97, 0.935, 0.87])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])
 PIGMENT = np.array([0.62, 0.52, 0.50])

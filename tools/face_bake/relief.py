@@ -5,6 +5,7 @@ from PIL import Image
 from scipy.ndimage import distance_transform_edt
 
 from .hair import growth
+from .mouth_paint import corners_of, rim_of
 from .paintkit import Noise, smoothstep
 from .people import Look
 from .raster import Raster
@@ -99,6 +100,8 @@ class ReliefPainter:
         rough = rough * (1 - canvas.lips) + (0.42 + 0.05 * self._lip_creases) * canvas.lips
         # What the neutral hides, and what hair grows from, does not shine.
         hidden = np.maximum(smoothstep(0.55, 0.25, light), 0.9 * (growth(points, look) > 0.3))
+        # Light from behind would shine along the line where lips meet.
+        hidden = np.maximum(hidden, np.maximum(rim_of(canvas), corners_of(canvas)))
         rough = rough + (1 - rough) * hidden
         grey = self._raster_grey(np.clip(rough, 0, 1) * 255, 255 * PLAIN)
         side = min(ROUGHNESS_SIDE, self._raster.size)

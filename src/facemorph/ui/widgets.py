@@ -10,6 +10,7 @@ from imgui_bundle import ImVec2, imgui
 from facemorph.ui.state import App
 from facemorph.ui.theme import FONT_PIXELS, THEMES, Colours, faded, packed
 
+_SHORT_WORD = 6
 _CONFIRM = imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all
 
 
@@ -142,7 +143,10 @@ def switch(app: App, name: str, on: bool) -> bool:
 
 
 def cut(text: str, room: float) -> str:
-    """`text`, with an ellipsis in it where it is wider than `room`; its end stays, where names differ."""
+    """`text`, with an ellipsis in it where it is wider than `room`.
+
+    What tells names apart stays: a short last word ("right"), or the end of what is no plain words.
+    """
     if imgui.calc_text_size(text).x <= room:
         return text
     low, high = 0, len(text)
@@ -156,8 +160,18 @@ def cut(text: str, room: float) -> str:
 
 
 def _shortened(text: str, letters: int) -> str:
-    tail = letters // 3
+    tail = _tail(text, letters)
     return f"{text[: letters - tail].rstrip()}…{text[len(text) - tail :].lstrip() if tail else ''}"
+
+
+def _tail(text: str, letters: int) -> int:
+    """How much of the end of `text` stays where `letters` of it do."""
+    words = text.split()
+    if len(words) < 2 or not all(word.strip(",").isalpha() for word in words):
+        # A path, a file, a number: their ends tell them apart.
+        return letters // 3
+    last = len(words[-1])
+    return last if last <= min(_SHORT_WORD, letters // 2) else 0
 
 
 def row_label(app: App, text: str, width: float, tip: str = "", *, bright: bool = True) -> None:

@@ -8,7 +8,7 @@ from facemorph.core.facs import PROTOTYPES, TABLE_2_1, Sides, prototype, units_t
 from facemorph.core.rig import Rig, plain_label
 from facemorph.ui import actions, fonts, gaze, units
 from facemorph.ui.panels import gaze_pad
-from facemorph.ui.panels.rows import Head, Row, divider, head, method_head, quiet_words, weight_row
+from facemorph.ui.panels.rows import Head, Row, divider, head, method_head, quiet_words, weight_row, widest_of
 from facemorph.ui.panels.shapes import shape_row
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
@@ -94,8 +94,9 @@ def _arkit(app: App, rig: Rig) -> None:
         quiet_words("This face has no ARKit shapes. The built-in faces have them: File > Built-in faces.")
         return
     imgui.begin_child("arkit", ImVec2(0, 0))
+    widest = widest_of(shape.label for shape in shapes)
     for shape in shapes:
-        shape_row(app, shape, shape.name)
+        shape_row(app, shape, shape.name, widest)
     imgui.end_child()
 
 
@@ -104,6 +105,7 @@ def _units(app: App, rig: Rig) -> None:
     _text(app)
     imgui.begin_child("units", ImVec2(0, 0))
     numbers = units.available(app)
+    widest = widest_of(label_of(rig, f"AU{number}") for number in numbers)
     first_other = next((n for n in numbers if n not in TABLE_2_1), None)
     for number in numbers:
         if number == first_other and number != numbers[0]:
@@ -111,7 +113,7 @@ def _units(app: App, rig: Rig) -> None:
         if number == gaze.LEFT and gaze.available(app):
             divider(app, "Gaze")
             gaze_pad.draw(app)
-        _unit(app, rig, number)
+        _unit(app, rig, number, widest)
     imgui.end_child()
 
 
@@ -164,13 +166,13 @@ def _text(app: App) -> None:
         units.paste_units(app)
 
 
-def _unit(app: App, rig: Rig, number: int) -> None:
+def _unit(app: App, rig: Rig, number: int, widest: float) -> None:
     sides = app.controls.facs.get(number, Sides.both(0.0))
     weight, balance = units.split(sides)
     balance = balance if weight else app.pages.balances.get(number, 0.0)
-    name, gap, button = f"AU{number}", 2 * unit(), 34 * unit()
+    name, gap, button = f"AU{number}", 2 * unit(), 30 * unit()
     label = label_of(rig, name)
-    row = Row(name, label, weight, f"{name}, {label.lower()}", str(number), {name: 1.0}, button + gap)
+    row = Row(name, label, weight, f"{name}, {label.lower()}", str(number), {name: 1.0}, button + gap, widest)
     new = weight_row(app, row)
     imgui.same_line(0, gap)
     if _sides_button(app, number, button, uneven=balance != 0.0):

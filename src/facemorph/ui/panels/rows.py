@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from heapq import nlargest
 
 from imgui_bundle import ImVec2, imgui
 
@@ -28,7 +29,7 @@ WIDE_TIP = (
     "Let weights go below 0 and above 1: exaggerates a shape or runs it backwards; "
     "the face may fold through itself"
 )
-_NUMBER, _TAG, _LEAST_SLIDER = 48.0, 26.0, 32.0
+_NUMBER, _TAG, _LEAST_SLIDER, _USUAL_SLIDER = 46.0, 26.0, 32.0, 76.0
 
 
 @dataclass(frozen=True)
@@ -105,6 +106,7 @@ class Row:
     tag: str = ""
     lights: Mapping[str, float] = field(default_factory=dict)
     spare: float = 0.0  # room to leave at the right end
+    widest: float = 0.0  # of the list's labels, so that none is cut where there is room for all
 
 
 def weight_row(app: App, row: Row) -> float:
@@ -115,7 +117,7 @@ def weight_row(app: App, row: Row) -> float:
     room = imgui.get_content_region_avail().x - row.spare
     place = imgui.get_cursor_screen_pos()
     number, tag = _NUMBER * scale, _TAG * scale if row.tag else 0.0
-    label = max((room - number - tag) * (0.6 if row.tag else 0.47), 60 * scale)
+    label = _label_width(row, room - number - tag)
     if row.tag and room - number - tag - label < _LEAST_SLIDER * scale:
         # The tag and the tooltip name it still.
         label = 6 * scale
@@ -135,6 +137,19 @@ def weight_row(app: App, row: Row) -> float:
     if not held and pointed_at(place, room):
         app.methods.hovered = row.lights
     return 0.0 if reset else new
+
+
+def _label_width(row: Row, room: float) -> float:
+    """What of the room before the number the label takes: a usual part, or more where labels are long."""
+    scale = unit()
+    usual = max(room * (0.6 if row.tag else 0.47), 60 * scale)
+    return max(usual, min(row.widest + 10 * scale, room - _USUAL_SLIDER * scale))
+
+
+def widest_of(labels: Iterable[str]) -> float:
+    """How wide the widest of a list's labels is."""
+    # The widest is among those with the most letters: measuring hundreds would take longer than drawing them.
+    return max((imgui.calc_text_size(label).x for label in nlargest(8, labels, key=len)), default=0.0)
 
 
 def pointed_at(place: ImVec2, width: float) -> bool:

@@ -8,7 +8,7 @@ from imgui_bundle import ImVec2, imgui
 
 from facemorph.core.rig import Rig, Shape, plain_label
 from facemorph.ui import actions, fonts
-from facemorph.ui.panels.rows import Head, Row, head, quiet_words, weight_row
+from facemorph.ui.panels.rows import Head, Row, head, quiet_words, weight_row, widest_of
 from facemorph.ui.state import App
 from facemorph.ui.theme import packed
 from facemorph.ui.widgets import colours, cut, icon_button, tooltip, unit
@@ -47,7 +47,7 @@ def draw(app: App) -> None:
     _search(app)
     imgui.begin_child("shapes", ImVec2(0, 0))
     _refresh_active(app, rig)
-    _list(app, _lines(app, rig))
+    _list(app, _lines(app, rig), widest_of(shape.label for shape in rig.controls))
     imgui.end_child()
 
 
@@ -116,7 +116,7 @@ def _lines(app: App, rig: Rig) -> list[_Line]:
     return lines
 
 
-def _list(app: App, lines: list[_Line]) -> None:
+def _list(app: App, lines: list[_Line], widest: float) -> None:
     if not lines:
         imgui.spacing()
         imgui.text_disabled(
@@ -133,7 +133,7 @@ def _list(app: App, lines: list[_Line]) -> None:
             if line.shape is None:
                 _section(app, line)
             else:
-                _row(app, line.shape, line.section)
+                shape_row(app, line.shape, f"{line.section}/{line.shape.name}", widest)
             imgui.pop_id()
 
 
@@ -173,13 +173,9 @@ def _arrow(paint: imgui.ImDrawList, x: float, y: float, size: float, ink: int, *
         )
 
 
-def _row(app: App, shape: Shape, section: str) -> None:
-    shape_row(app, shape, f"{section}/{shape.name}")
-
-
-def shape_row(app: App, shape: Shape, key: str) -> None:
-    """A shape with the slider for what it adds to the face."""
+def shape_row(app: App, shape: Shape, key: str, widest: float) -> None:
+    """A shape with the slider for what it adds to the face; `widest` as `Row` has it."""
     weight = app.pose.weights.get(shape.name, 0.0)
-    new = weight_row(app, Row(key, shape.label, weight, shape.name, lights={shape.name: 1.0}))
+    new = weight_row(app, Row(key, shape.label, weight, shape.name, lights={shape.name: 1.0}, widest=widest))
     if new != weight:
         actions.set_weight(app, shape.name, new)

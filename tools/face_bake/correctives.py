@@ -10,14 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from .head import Body
-from .recipes import EXPRESSIONS, FACS, arkit_recipe
+from .recipes import EXPRESSIONS, FACS, arkit_recipe, half_way_recipe
 
 # Those of which one of the six people misses more than half a millimetre half way, or where two are on.
 # The tongue comes out on no arc: a hat would not help it.
 EYES_BOTH_SIDES = ("eyeBlink", "eyeLookDown", "eyeLookIn", "eyeSquint")
 SIDES = ("Left", "Right")
 HALF_WAY = (
-    *("happy", "angry", "surprised", "afraid"),
+    *("happy", "sad", "angry", "surprised", "disgusted", "afraid"),
     *(f"AU{number}" for number in (7, 12, 13, 17, 18, 22, 26, 27, 28, 29, 30, 43, 61, 62, 64)),
     *(f"{name}{side}" for name in EYES_BOTH_SIDES for side in SIDES),
     *(
@@ -73,10 +73,6 @@ def together(one: str, other: str) -> str:
     return f"{one} and {other}"
 
 
-def _scaled(recipe: dict, part: float) -> dict:
-    return {term: weight * part for term, weight in recipe.items()}
-
-
 def _both(one: dict, other: dict) -> dict:
     return {term: one.get(term, 0) + other.get(term, 0) for term in dict.fromkeys([*one, *other])}
 
@@ -92,7 +88,7 @@ def correctives(body: Body, recipes: dict, moves: dict[str, np.ndarray]) -> list
         return body.positions(body.shaper.shape(recipe)) - neutral
 
     halves = [
-        MadeCorrective(half_way(name), at(_scaled(recipes[name], 0.5)) - 0.5 * moves[name])
+        MadeCorrective(half_way(name), at(half_way_recipe(name, recipes[name])) - 0.5 * moves[name])
         for name in HALF_WAY
         if half_way(name).startswith(f"{name} ")
     ]

@@ -19,60 +19,74 @@ EXPRESSIONS = {
         "sculpt:browOuter": 0.08,
     },
     "sad": {
-        "sculpt:browInner": 1.4,
+        "sculpt:browInner": 1.75,
         "sculpt:browDown": 0.75,
-        "sculpt:frown": 0.88,
-        "sculpt:chin": 0.55,
-        "sculpt:stretch": 0.15,
-        "arkit:eyeBlink": 0.08,
-        "arkit:eyeLookDown": 0.35,
+        "sculpt:browOuter": -0.20,
+        "sculpt:frown": 1.15,
+        "sculpt:chin": 0.70,
+        "sculpt:stretch": 0.10,
+        "arkit:eyeBlink": 0.12,
+        "arkit:eyeLookDown": 0.50,
         "arkit:eyeSquint": 0.10,
         "sculpt:cheek": 0.15,
     },
     "angry": {
-        "sculpt:browDown": 1.1,
-        "sculpt:browAngle": 0.7,
-        "mh:eye-opened-up": 0.45,
-        "arkit:eyeSquint": 0.50,
-        "sculpt:sneer": 0.25,
-        "mh:nose-dilatation": 0.9,
-        "sculpt:press": 0.9,
-        "sculpt:chin": 0.35,
-        "sculpt:frown": 0.25,
+        "sculpt:browDown": 1.3,
+        "sculpt:browAngle": 1.0,
+        "mh:eye-opened-up": 0.60,
+        "arkit:eyeSquint": 0.55,
+        "sculpt:sneer": 0.15,
+        "mh:nose-dilatation": 1.0,
+        "sculpt:press": 1.15,
+        "sculpt:chin": 0.30,
+        "sculpt:frown": 0.05,
     },
     "surprised": {
-        "sculpt:browInner": 1.0,
-        "sculpt:browOuter": 0.95,
-        "mh:eye-opened-up": 0.85,
+        "sculpt:browInner": 1.15,
+        "sculpt:browOuter": 1.20,
+        "mh:eye-opened-up": 0.80,
         "arkit:eyeWide": 0.2,
-        "arkit:jawOpen": 0.60,
-        "sculpt:oval": 1.1,
+        "arkit:jawOpen": 0.70,
+        "sculpt:oval": 1.15,
     },
     "disgusted": {
-        "sculpt:sneer": 1.5,
-        "sculpt:upper": 0.70,
-        "sculpt:lower": -0.80,
-        "sculpt:browInner": 0.25,
-        "sculpt:browDown": 0.35,
-        "sculpt:cheek": 0.75,
-        "arkit:eyeSquint": 0.70,
+        "sculpt:sneer": 1.75,
+        "sculpt:upper": 1.05,
+        "sculpt:lower": -0.55,
+        "sculpt:browDown": 0.25,
+        "sculpt:cheek": 0.95,
+        "arkit:eyeSquint": 0.85,
         "sculpt:frown": 0.30,
-        "sculpt:chin": 0.65,
+        "sculpt:chin": 0.50,
         "sculpt:stretch": 0.10,
     },
     "afraid": {
-        "sculpt:browInner": 1.4,
-        "sculpt:browOuter": 0.65,
+        "sculpt:browInner": 1.6,
+        "sculpt:browOuter": 0.80,
         "sculpt:browDown": 0.75,
-        "mh:eye-opened-up": 0.95,
+        "mh:eye-opened-up": 1.20,
         "arkit:eyeWide": 0.25,
-        "sculpt:stretch": 0.75,
-        "sculpt:part": 0.40,
-        "sculpt:lower": 0.2,
-        "sculpt:upper": 0.25,
-        "arkit:jawOpen": 0.24,
-        "mh:neck-platysma": 0.45,
+        "sculpt:stretch": 1.15,
+        "sculpt:frown": 0.25,
+        "sculpt:part": 0.65,
+        "sculpt:lower": 0.45,
+        "sculpt:upper": 0.15,
+        "arkit:jawOpen": 0.17,
+        "mh:neck-platysma": 0.6,
     },
+}
+
+# Brows, lids and gaze are there sooner than the mouth, in disgust the nose and the upper lip, and a fright
+# is all over the face at once: half way to an expression these have come LEAD further than half of their way.
+LEAD = 0.15
+BROWS = ("sculpt:browInner", "sculpt:browOuter", "sculpt:browDown", "sculpt:browAngle")
+LIDS = ("mh:eye-opened-up", "arkit:eyeWide", "arkit:eyeSquint", "arkit:eyeBlink", "arkit:eyeLookDown")
+LEADERS = {
+    "sad": (*BROWS, *LIDS),
+    "angry": (*BROWS, *LIDS),
+    "surprised": (*BROWS, *LIDS),
+    "disgusted": ("sculpt:sneer", "sculpt:upper", "sculpt:lower", "sculpt:cheek", "arkit:eyeSquint"),
+    "afraid": (*BROWS, *LIDS, "sculpt:stretch", "sculpt:part", "sculpt:lower"),
 }
 
 # Not made: 8, 11, 31-33, 35-37 and 39 (no units that show them well); 51-58 are poses of the head.
@@ -170,6 +184,12 @@ ARKIT_LABELS = {
     "noseSneer": "Nose wrinkled",
     "tongueOut": "Tongue out",
 }
+
+
+def half_way_recipe(name: str, recipe: dict) -> dict:
+    """What a shape is half way: half of its recipe, with more of what leads."""
+    leaders = LEADERS.get(name, ())
+    return {term: weight * (0.5 + LEAD * (term in leaders)) for term, weight in recipe.items()}
 
 
 def arkit_recipe(name: str) -> dict:

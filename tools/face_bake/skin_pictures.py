@@ -49,7 +49,7 @@ class SkinPictures:
             for side, area in placed.areas.items():
                 shapes = rule.shapes | {name + side.capitalize(): gain for name, gain in rule.sided.items()}
                 share = rule.young + (1 - rule.young) * age
-                told = ", ".join(f"{name} = {share * gain:.3g}" for name, gain in shapes.items())
+                told = ", ".join(f"{_key(name)} = {share * gain:.3g}" for name, gain in shapes.items())
                 lines += [
                     "",
                     "[[wrinkles]]",
@@ -75,3 +75,8 @@ def skin_maps_text(person: Person) -> list[str]:
 def _shrunk(picture: Image.Image, part: float) -> Image.Image:
     side = round(picture.width * part)
     return picture.resize((side, side), Image.Resampling.BOX if part == 0.5 else Image.Resampling.LANCZOS)
+
+
+def _key(name: str) -> str:
+    """A shape's name as a key of TOML."""
+    return name if name.isidentifier() else f'"{name}"'

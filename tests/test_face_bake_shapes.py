@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from facemorph.core.correctives import hat
 from tests.conftest import ROOT
 
 TOOLS = ROOT / "tools"
@@ -16,8 +17,16 @@ if not (TOOLS / "face_bake").is_dir():
     pytest.skip("the bake's tools are not beside these tests", allow_module_level=True)
 sys.path.insert(0, str(TOOLS))
 
+from face_bake.correctives import JAW_OVER, JAW_SHARE  # noqa: E402
 from face_bake.creases import Creases  # noqa: E402
-from face_bake.recipes import EXPRESSIONS, FACS, arkit_recipe  # noqa: E402
+from face_bake.recipes import (  # noqa: E402
+    EXPRESSIONS,
+    FACS,
+    LEAD,
+    LEADERS,
+    arkit_recipe,
+    half_way_recipe,
+)
 from face_bake.sculpt import signed_distance  # noqa: E402
 from face_bake.surface import CageSurface  # noqa: E402
 from face_bake.write import NECK, frame_lines  # noqa: E402
@@ -118,3 +127,41 @@ def test_a_picture_shows_the_head_and_some_neck_and_leaves_the_shoulders_out() -
     frame = tomllib.loads("\n".join(lines))["frame"]
     assert frame["low"] == [-7.0, round(-8 - NECK * 18, 1), -9.0]
     assert frame["high"] == [7.0, 10.0, 9.0]
+
+
+def test_half_way_to_an_expression_its_leaders_are_ahead_and_the_rest_is_half_way():
+    for name, recipe in EXPRESSIONS.items():
+        half = half_way_recipe(name, recipe)
+        assert half.keys() == recipe.keys()
+        for term, weight in recipe.items():
+            share = 0.5 + (LEAD if term in LEADERS.get(name, ()) else 0.0)
+            assert half[term] == pytest.approx(share * weight)
+    assert half_way_recipe("AU4", FACS["AU4"][1])["sculpt:browDown"] == FACS["AU4"][1]["sculpt:browDown"] / 2
+
+
+def test_what_leads_is_in_the_expressions_and_no_part_turns_back_on_the_way():
+    """At weight c a leader has come c + 4 LEAD c (1 - c) of its way, which grows up to c = 1."""
+    assert 0 < LEAD <= 0.25
+    for name, leaders in LEADERS.items():
+        assert len(EXPRESSIONS[name].keys() & set(leaders)) >= 3
+
+
+def test_each_emotion_has_the_units_that_tell_it_from_the_others():
+    sad, angry, surprised = (EXPRESSIONS[name] for name in ("sad", "angry", "surprised"))
+    disgusted, afraid = EXPRESSIONS["disgusted"], EXPRESSIONS["afraid"]
+    assert sad["sculpt:browInner"] > 1 > sad["sculpt:frown"] > 0.5, "AU1, AU15"
+    assert angry["sculpt:browDown"] > 1 and angry["sculpt:press"] > 1, "AU4, AU24"
+    assert angry["mh:eye-opened-up"] > 0.3, "AU5"
+    assert disgusted["sculpt:sneer"] > 1 and disgusted["sculpt:upper"] > 0.5, "AU9, AU10"
+    assert afraid["mh:eye-opened-up"] > surprised["mh:eye-opened-up"], "AU5"
+    assert afraid["sculpt:stretch"] > 0.8 and "sculpt:stretch" not in surprised, "AU20"
+    assert surprised["arkit:jawOpen"] > 2 * afraid["arkit:jawOpen"], "AU26, AU27"
+
+
+def test_lips_close_on_the_jaw_as_far_as_it_is_open():
+    """mouthClose as much as jawOpen: what the corrective adds to what mouthClose does alone is the whole."""
+    alone = arkit_recipe("mouthClose")["arkit:mouthClose"]
+    for opening in np.linspace(0.1, 1.0, 19):
+        added = (1 - alone) * hat(opening, *JAW_OVER) / JAW_SHARE
+        assert opening * (alone + added) == pytest.approx(opening, abs=0.05)
+    assert hat(1.0, *JAW_OVER) == pytest.approx(JAW_SHARE)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .head import Body
-from .recipes import EXPRESSIONS, FACS, arkit_recipe, half_way_recipe
+from .recipes import CLOSING, EXPRESSIONS, FACS, arkit_recipe, half_way_recipe
 
 # Those of which one of the six people misses more than half a millimetre half way, or where two are on.
 # The tongue comes out on no arc: a hat would not help it.
@@ -43,6 +43,12 @@ PAIRS = (
     *((mood, "AU43") for mood in MOODS),
     *((mood, f"eyeBlink{side}") for mood in MOODS for side in SIDES),
 )
+# Lips close on an open jaw as far as they are told to, however open it is: the hat over jawOpen rises at once
+# and stays. It is what follows from JAW_SHARE at the jaw fully open.
+LIPS_ON_JAW, LIPS, JAW = "mouthClose on an open jaw", "mouthClose", "jawOpen"
+JAW_OVER = (0.0, 0.3, 4.0)
+_FALL = (JAW_OVER[2] - 1.0) / (JAW_OVER[2] - JAW_OVER[1])
+JAW_SHARE = _FALL * (2.0 - _FALL)
 # Of a corrective, vertices that it moves less than this (cm) stay.
 SMALLEST = 0.003
 
@@ -99,4 +105,5 @@ def correctives(body: Body, recipes: dict, moves: dict[str, np.ndarray]) -> list
         )
         for one, other in PAIRS
     ]
-    return halves + pairs
+    closed = at(_both(recipes[JAW], CLOSING)) - moves[JAW] - moves[LIPS]
+    return [*halves, *pairs, MadeCorrective(LIPS_ON_JAW, closed / JAW_SHARE)]

@@ -19,11 +19,11 @@ EXPRESSIONS = {
         "sculpt:browOuter": 0.08,
     },
     "sad": {
-        "sculpt:browInner": 1.75,
+        "sculpt:browInner": 1.60,
         "sculpt:browDown": 0.75,
-        "sculpt:browOuter": -0.20,
-        "sculpt:frown": 1.15,
-        "sculpt:chin": 0.70,
+        "sculpt:browOuter": -0.15,
+        "sculpt:frown": 0.92,
+        "sculpt:chin": 0.60,
         "sculpt:stretch": 0.10,
         "arkit:eyeBlink": 0.12,
         "arkit:eyeLookDown": 0.50,
@@ -32,7 +32,7 @@ EXPRESSIONS = {
     },
     "angry": {
         "sculpt:browDown": 1.3,
-        "sculpt:browAngle": 1.0,
+        "sculpt:browAngle": 0.85,
         "mh:eye-opened-up": 0.60,
         "arkit:eyeSquint": 0.55,
         "sculpt:sneer": 0.15,
@@ -50,14 +50,14 @@ EXPRESSIONS = {
         "sculpt:oval": 1.15,
     },
     "disgusted": {
-        "sculpt:sneer": 1.75,
-        "sculpt:upper": 1.05,
-        "sculpt:lower": -0.55,
+        "sculpt:sneer": 1.62,
+        "sculpt:upper": 0.80,
+        "sculpt:lower": -0.95,
         "sculpt:browDown": 0.25,
         "sculpt:cheek": 0.95,
         "arkit:eyeSquint": 0.85,
         "sculpt:frown": 0.30,
-        "sculpt:chin": 0.50,
+        "sculpt:chin": 0.70,
         "sculpt:stretch": 0.10,
     },
     "afraid": {
@@ -66,8 +66,8 @@ EXPRESSIONS = {
         "sculpt:browDown": 0.75,
         "mh:eye-opened-up": 1.20,
         "arkit:eyeWide": 0.25,
-        "sculpt:stretch": 1.15,
-        "sculpt:frown": 0.25,
+        "sculpt:stretch": 1.05,
+        "sculpt:frown": 0.12,
         "sculpt:part": 0.65,
         "sculpt:lower": 0.45,
         "sculpt:upper": 0.15,
@@ -186,6 +186,12 @@ ARKIT_LABELS = {
 }
 
 
+# Lips that close on a jaw that is not open have nowhere to go: by itself mouthClose is this much of its way,
+# and the rest comes with the jaw, see correctives.py.
+CLOSING = {"arkit:mouthClose": 1.0}
+CLOSING_ALONE = 0.25
+
+
 def half_way_recipe(name: str, recipe: dict) -> dict:
     """What a shape is half way: half of its recipe, with more of what leads."""
     leaders = LEADERS.get(name, ())
@@ -195,6 +201,8 @@ def half_way_recipe(name: str, recipe: dict) -> dict:
 def arkit_recipe(name: str) -> dict:
     """What makes an ARKit shape: sculpted fields of its side, or the source's own unit."""
     stem, side = re.fullmatch(r"(\w+?)(Left|Right|)", name).groups()
+    if name == "mouthClose":
+        return {term: CLOSING_ALONE * weight for term, weight in CLOSING.items()}
     if stem not in ARKIT_SCULPTED:
         return {f"arkit:{name}": 1.0}
     return {term + side: weight for term, weight in ARKIT_SCULPTED[stem].items()}

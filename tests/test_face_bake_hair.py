@@ -18,14 +18,15 @@ pytest.importorskip("embreex", reason="the bake's own packages are not installed
 sys.path.insert(0, str(TOOLS))
 
 from face_bake.brows import BrowsPart  # noqa: E402
-from face_bake.hair import growth  # noqa: E402
-from face_bake.hair_atlas import HEIGHT, OPACITIES, TILES, WIDTH, hair_picture, tile_box  # noqa: E402
+from face_bake.hair import growth, paint_hair  # noqa: E402
+from face_bake.hair_atlas import HEIGHT, MARGIN, OPACITIES, TILES, WIDTH, hair_picture, tile_box  # noqa: E402
 from face_bake.hair_cuts import STYLES  # noqa: E402
 from face_bake.hair_frame import CENTRE, Fitting, Skull, direction  # noqa: E402
 from face_bake.hair_locks import LockValues, place_locks  # noqa: E402
 from face_bake.hair_part import BODY, WISPS, HairPart  # noqa: E402
 from face_bake.hair_shell import Sheet  # noqa: E402
-from face_bake.lash_pictures import brow_picture, lash_picture  # noqa: E402
+from face_bake.lash_pictures import BROW_TILES, brow_picture, lash_picture  # noqa: E402
+from face_bake.paintkit import Noise  # noqa: E402
 from face_bake.people import ADA, KOFI, MEI, PEOPLE  # noqa: E402
 
 RADII = np.array([0.75, 1.4, 0.95])
@@ -132,6 +133,38 @@ def test_the_hairs_picture_is_opaque_at_roots_and_ragged_at_tips(name: str) -> N
     np.testing.assert_array_equal(alpha, np.asarray(hair_picture(PEOPLE[name].look).convert("RGBA"))[..., 3])
 
 
+@pytest.mark.parametrize("name", ["ada", "zola"])
+def test_locks_are_empty_below_their_tips_so_that_nothing_shows_from_across_the_border(name: str) -> None:
+    alpha = np.asarray(hair_picture(PEOPLE[name].look).convert("RGBA"))[..., 3]
+    assert (alpha[-MARGIN:] == 0).all()
+
+
+@pytest.mark.parametrize("name", STYLES)
+def test_no_lock_leaves_the_sheet_sideways(name: str) -> None:
+    sheet, asked = Sheet(STYLES[name], SKULL), []
+    real = sheet.at
+    sheet.at = lambda c, t: asked.append(c) or real(c, t)
+    place_locks(sheet, LockValues(STYLES[name].wisps, WISPS, np.random.default_rng(1)))
+    assert min(c.min() for c in asked) > 0
+    assert max(c.max() for c in asked) < 1
+
+
+@pytest.mark.parametrize("name", ["ben", "kofi", "omar"])
+def test_a_short_haircut_closes_gradually_at_the_temple(name: str) -> None:
+    look, rng = PEOPLE[name].look, np.random.default_rng(2)
+    azimuth = rng.uniform(50, 60, 4000)
+    points = CENTRE + direction(azimuth, rng.uniform(-40, 60, 4000)) * 0.95
+    inside = growth(points, look)
+    skin = np.tile(np.array(look.skin, np.float32), (len(points), 1))
+    painted = paint_hair(skin, points, np.zeros(len(points)), Noise(1), look)
+    cover = np.linalg.norm(painted - skin, axis=1)
+    steps = [cover[np.abs(inside - at) < 3].mean() for at in (-20, 0, 8, 16, 30)]
+    assert steps[0] < 0.02 * steps[-1], "bare skin on one side"
+    assert np.all(np.diff(steps[:4]) > 0), "ever closer hair on the way in"
+    assert steps[4] > 0.85 * steps[3]
+    assert steps[1] < 0.35 * steps[-1] < steps[3]
+
+
 def test_hair_grows_on_the_crown_and_not_on_the_face() -> None:
     places = np.array([[0, 8.48, 0.5], [0, 7.9, -0.3], [0, 7.5, 1.5], [0, 6.6, 1.5]])
     for person in PEOPLE.values():
@@ -173,6 +206,13 @@ def forehead() -> tuple[BrowsPart, np.ndarray]:
         [np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)]
     )
     return BrowsPart(SimpleNamespace(operator=np.eye(len(points)), triangles=triangles), points), points
+
+
+def test_tufts_for_the_ends_of_a_brow_are_thinner() -> None:
+    alpha = np.asarray(brow_picture(ADA.look))[..., 1].astype(float)
+    cover = [tile.mean() for tile in np.split(alpha, BROW_TILES, axis=1)]
+    assert np.all(np.diff(cover) < 0)
+    assert cover[-1] < 0.75 * cover[0]
 
 
 def test_denser_brows_and_lashes_cover_more() -> None:

@@ -67,4 +67,5 @@ def _single_hairs(points, turn, amount, seed: int) -> np.ndarray:
     nearest, _, number = cells_where(there, places.astype(np.float32), across, seed)
     grows = number * 3.7 % 1 < 0.06 + 0.62 * amount
     strength = (0.22 + 0.40 * (number * 17.3 % 1)) * (0.55 + 0.45 * amount)
-    return strength * smoothstep(0.46, 0.18, nearest) * grows * smoothstep(0.0, 0.30, amount)
+    few = smoothstep(0.0, 0.30, amount) * smoothstep(0.97, 0.75, amount)
+    return strength * smoothstep(0.46, 0.18, nearest) * grows * few

@@ -96,7 +96,10 @@ def _straight_tile(tile: int, texture: Texture, rng: np.random.Generator) -> Str
         length = np.clip(rng.normal(0.80, 0.08), 0.45, 0.92) - 0.16 * abs(at / spread)
         thick = rng.uniform(1.0, 2.0) * np.clip(1.25 - rows / max(length, 0.1) * 0.7, 0.55, 1)
         tone = 0.27 + 0.15 * smoothstep(0, 0.4, rows) + dark + rng.normal(0, 0.12 * texture.contrast)
-        opacity = smoothstep(length, length - 0.22, rows) * smoothstep(0.0, 0.10 + 0.35 * rng.uniform(), rows)
+        # Short hair grows out of the skin where it is seen: no two hairs of a lock begin side by side.
+        begins = rng.uniform(0, 0.40) if texture.strand < 1 else 0.0
+        grown = smoothstep(begins, begins + 0.10 + 0.35 * rng.uniform(), rows)
+        opacity = smoothstep(length, length - 0.22, rows) * grown
         strokes.strand(x, thick, tone, opacity)
     return strokes
 

@@ -9,7 +9,7 @@ from .hair_styles import Locks
 # A lock is so many pairs of vertices long.
 PAIRS = 6
 # No lock leaves the sheet sideways: it would lie on bare skin.
-ASIDE = 0.007
+ASIDE = 0.015
 
 
 class LockValues:

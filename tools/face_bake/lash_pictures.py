@@ -17,7 +17,7 @@ LASH_WIDTH, LASH_HEIGHT = 512, 96
 def brow_material(look: Look) -> tuple:
     """Colour (linear light), shine, exponent and picture."""
     # Hairs as fine as these let light through: softer and warmer than what grows on the head.
-    return _dyed(np.clip(np.array(look.brow) * (1.32, 1.18, 1.06) + (0.055, 0.042, 0.034), 0, 1), "brow.png")
+    return _dyed(np.clip(np.array(look.brow) * (1.40, 1.24, 1.10) + (0.028, 0.020, 0.016), 0, 1), "brow.png")
 
 
 def lash_material(look: Look) -> tuple:

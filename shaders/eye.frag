@@ -20,7 +20,7 @@ const float LIMBUS_IN_PICTURE = 0.27;
 const float CORNEA = 1.33;             // its radius, the limbus's being 1
 const float DEPTH = 0.46;              // of the iris's middle below it
 const float SOCKET = 0.72;              // light that brow, nose and cheek leave the white
-const float GLARE = 0.014;              // lights made strong for dark skin would let the white glare
+const float GLARE = 0.0105;             // lights made strong for dark skin would let the white glare
 const vec3 CARUNCLE = vec3(0.46, 0.16, 0.13);
 const float INTO_EYE = 1.0 / 1.336;    // refractive index of air over that of the aqueous humour
 
@@ -86,7 +86,7 @@ vec3 eyeball(int eye, vec3 n, vec3 view, inout vec4 paint) {
     // The iris lies flat behind the cornea, which gathers light on the side away from the lamp.
     vec3 lit_normal = normalize(mix(n, forward, 0.75 * clear));
     vec3 light = open_light(lit_normal);
-    float lamps = key_light.g + fill_light.g + sky_light.g;
+    float lamps = key_light.g + fill_light.g + sky_light.g + floor_light.g;
     lamps *= lamps;
     light *= mix(SOCKET / (1.0 + GLARE * lamps * lamps), 0.85, clear);
     vec2 lamp = vec2(dot(key_direction, right), dot(key_direction, up));

@@ -16,7 +16,7 @@ uniform float spill;                   // how far light from the lips' edge spil
 const vec3 FLESH = vec3(1.0, 0.60, 0.50);      // what bounces in a mouth has met flesh
 const float PASSED_ON = 0.7;
 const float AT_LIPS = 0.50;                    // of the light is left where lips end and their lining begins
-const float GLARE = 0.09;                      // lights made strong for dark skin would let teeth glare
+const float GLARE = 0.0128;                    // lights made strong for dark skin would let teeth glare
 const float UNDER_LIP = 0.72;                  // of the light is left right under the upper lip
 const float CORNER = 0.35;                     // of the light is kept away at the corners
 const float FALL_OFF = 0.62;                   // with depth, per half width of the mouth
@@ -70,7 +70,8 @@ vec3 lit_inside(vec3 paint, vec3 n, vec3 view) {
     light *= mix(FLESH, vec3(1.0), smoothstep(0.0, 0.9, reached.x));
     float left = spill > 0.0 ? mix(unshaded(surface_position), 1.0, beside_lips(surface_position))
                              : unshaded(surface_position);
-    float lamps = key_light.g + fill_light.g + sky_light.g;
+    float lamps = key_light.g + fill_light.g + sky_light.g + floor_light.g;
+    lamps *= lamps;
     light *= left * mix(FLESH, vec3(1.0), smoothstep(0.0, 0.8, left)) / (1.0 + GLARE * lamps * lamps);
     vec3 shine = left * highlight(paint, n, normalize(shine_direction + view)) * smoothstep(0.15, 0.7, reached.x);
     // Wet: what comes in at the opening mirrors at grazing angles.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,7 +20,7 @@ sys.path.insert(0, str(TOOLS))
 from eye_gaps import Opening  # noqa: E402
 from face_bake import parts_eyes, parts_eyes_ball  # noqa: E402
 from face_bake.parts_eyes_ball import EYE_VERTICES, GAZE_DEGREES, LIMBUS, Eyeballs  # noqa: E402
-from face_bake.parts_eyes_lids import with_lids  # noqa: E402
+from face_bake.parts_eyes_lids import OVERLAP, BlinkFit, with_lids  # noqa: E402
 from face_bake.polygons import triangles_of  # noqa: E402
 
 LOOKS = dict.fromkeys(GAZE_DEGREES, 0.0)
@@ -130,6 +131,40 @@ def test_lids_follow_eyes_that_look_up_or_down():
     assert with_lids({"arkit:eyeLookUpLeft": 0.5})["arkit:eyeWideLeft"] > 0
     assert with_lids({"arkit:eyeLookDown": 1.0})["arkit:eyeBlink"] > 0
     assert with_lids({"arkit:eyeLookInLeft": 1.0}) == {"arkit:eyeLookInLeft": 1.0}
+
+
+ALONG = np.linspace(-0.12, 0.12, 13)
+
+
+def lids(opening: float, skew: float) -> tuple[np.ndarray, list[np.ndarray]]:
+    """A body with two eyes whose lids are arcs, further apart towards one end by `skew`; columns of both."""
+    points, columns = np.zeros((19158, 3)), []
+    bow = 1 - (ALONG / 0.14) ** 2
+    for side, (x, first) in enumerate(((0.3, 0), (-0.3, 26))):
+        towards = ALONG if side == 0 else -ALONG
+        upper = np.stack([x + ALONG, 7.3 + opening * bow * (1 + skew * towards), 0 * ALONG + 1.35], -1)
+        lower = np.stack([x + ALONG, 7.3 - 0.4 * opening * bow, 0 * ALONG + 1.35], -1)
+        points[first : first + 26] = np.concatenate([upper, lower])
+        columns.append(np.repeat(np.arange(first, first + 26)[:, None], 3, axis=1))
+    return points, columns
+
+
+@pytest.mark.parametrize(("opening", "skew"), [(0.03, 0.0), (0.05, 2.0), (0.05, -2.0), (0.06, 1.0)])
+def test_a_blink_brings_upper_edges_just_past_lower_ones_all_along_whoevers_eyes(opening: float, skew: float):
+    base, columns = lids(0.05, 0.0)
+    moves = {"eyeBlinkLeft": np.zeros_like(base), "eyeBlinkRight": np.zeros_like(base)}
+    for move, first in zip(moves.values(), (0, 26), strict=True):
+        move[first : first + 13, 1] = -0.09 * (1 - (ALONG / 0.14) ** 2)
+    source = SimpleNamespace(base=SimpleNamespace(points=base), arkit=moves.get)
+    start = lids(opening, skew)[0]
+    fit = BlinkFit(source, columns)
+    closed, half = (start + fit.offsets(np.full(2, weight), start) for weight in (1.0, 0.5))
+    for first in (0, 26):
+        upper, lower = slice(first, first + 13), slice(first + 13, first + 26)
+        past = closed[lower, 1] - closed[upper, 1]
+        np.testing.assert_allclose(past[1:-1], OVERLAP, atol=1e-6)
+        assert (np.abs(past - OVERLAP) < 0.005).all()
+        np.testing.assert_allclose(half[upper], 0.5 * (start[upper] + closed[upper]), atol=1e-9)
 
 
 def slit(height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

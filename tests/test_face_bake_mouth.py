@@ -21,6 +21,7 @@ sys.path.insert(0, str(TOOLS))
 from face_bake import mouth_fit  # noqa: E402
 from face_bake.dentition import ToothPlace, crowns, placed  # noqa: E402
 from face_bake.mouth_fit import CLEARANCE, LOWER_HELPER, Arch, MouthFit  # noqa: E402
+from face_bake.mouth_paint import RIM_REACH, corners_of, rim_of  # noqa: E402
 from face_bake.mouth_room import _softly  # noqa: E402
 from face_bake.parts_gums import gum_columns  # noqa: E402
 from face_bake.parts_teeth import Teeth  # noqa: E402
@@ -169,6 +170,21 @@ def test_the_tongue_lies_behind_the_lower_teeth_and_comes_out_over_them(neutral:
     over = np.abs(shown[:, 2] - LOWER.front) < 0.04
     assert shown[over, 1].min() > LOWER.edge - 1.0 * MILLIMETRE
     assert volume(rest - rest[TONGUE_TIP], triangles_of(tongue.groups[0].polygons)) > 0
+
+
+def test_lips_are_shaded_towards_their_rim_and_in_both_corners_alike():
+    x, y = (a.ravel() for a in np.meshgrid(np.linspace(-0.4, 0.4, 161), np.linspace(6.3, 6.9, 121)))
+    points = np.stack([x, y, np.full(len(x), 1.41)], -1)
+    mouth = (np.abs(y - 6.6) < 0.02) & (np.abs(x) < 0.2)
+    lips = (np.abs(y - 6.6) < 0.15) & (np.abs(x) < 0.25) & ~mouth
+    canvas = SimpleNamespace(points=points, mouth=mouth.astype(float), lips=lips.astype(float))
+    rim, corners = rim_of(canvas), corners_of(canvas)
+    assert not rim[~lips].any() and not corners[mouth].any()
+    above = np.flatnonzero(lips & (np.abs(x) < 1e-6) & (y > 6.6))
+    assert (np.diff(rim[above[np.argsort(y[above])]]) <= 0).all()
+    assert rim[above].max() > 0.9 and not rim[lips & (y > 6.62 + RIM_REACH + 0.01)].any()
+    middle, aside = points[np.argmax(corners * (x > 0))], points[np.argmax(corners * (x < 0))]
+    np.testing.assert_allclose(middle * [-1, 1, 1], aside, atol=1e-9)
 
 
 def test_what_is_laid_down_softly_keeps_its_order_and_stays_above():

@@ -9,6 +9,7 @@ vec3 mirrored_room(vec3 direction, float blur) {
     vec2 size = vec2(0.15, 0.19), soft = vec2(0.06 + 0.45 * blur);
     vec2 inside = 1.0 - smoothstep(size - soft, size + soft, off);
     float box = inside.x * inside.y * step(0.0, dot(direction, shine_direction));
-    float ceiling = smoothstep(-0.15, 0.75, direction.y);
-    return key_light * (6.0 * gloss * box) + mix(floor_light, sky_light * 3.0, ceiling);
+    // Brows and lashes stand before most of it.
+    float ceiling = smoothstep(-0.05, 0.90, direction.y);
+    return key_light * (6.0 * gloss * box) + mix(floor_light, sky_light * 1.8, ceiling);
 }

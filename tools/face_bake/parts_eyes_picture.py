@@ -10,6 +10,8 @@ from .people import Look
 PUPIL = 0.33
 WHITE, CORNER = np.array([0.850, 0.805, 0.770]), np.array([0.800, 0.600, 0.555])
 LIMBUS_SHADE = np.array([0.62, 0.62, 0.66])
+# What melanin leaves of the white, where there is most of it.
+STAINED = np.array([0.87, 0.81, 0.765])
 VEIN = np.array([0.68, 0.24, 0.21])
 VEINS, VEIN_STEPS = 46, 34
 # Veins are drawn so much larger, then blurred and reduced.
@@ -86,7 +88,7 @@ def _vein(pen, scale, rng, turn, start, end, grey):
         pen.line(points[k : k + 2], fill=int(grey * fading), width=FINER if grey > 120 else 1)
 
 
-def _white(brush: EyeBrush, rng: np.random.Generator) -> np.ndarray:
+def _white(brush: EyeBrush, look: Look, rng: np.random.Generator) -> np.ndarray:
     """Warm white, pink towards the corners and the lids, with veins, greyer at the limbus."""
     edge = (brush.out * LIMBUS_IN_PICTURE - LIMBUS_IN_PICTURE) / (0.5 - LIMBUS_IN_PICTURE)
     aside = np.abs(np.cos(brush.turn))
@@ -95,6 +97,7 @@ def _white(brush: EyeBrush, rng: np.random.Generator) -> np.ndarray:
     colour = colour * (1 + 0.012 * brush.around(30, 9.0, 47))[..., None]
     veins = (_veins(brush.size, rng) * smoothstep(0.02, 0.22, edge) * 1.0)[..., None]
     colour = colour * (1 - veins) + VEIN * veins
+    colour = colour * STAINED**look.gum_pigment
     shade = np.exp(-(((brush.out - 1.0) / 0.07) ** 2))[..., None]
     return colour * (1 - shade * (1 - LIMBUS_SHADE))
 
@@ -102,7 +105,7 @@ def _white(brush: EyeBrush, rng: np.random.Generator) -> np.ndarray:
 def eye_picture(look: Look, size: int = 768) -> Image.Image:
     """The pupil is in the middle, the limbus at `LIMBUS_IN_PICTURE`, the back of the eye at the edge."""
     brush, rng = EyeBrush(size, look.iris_seed), np.random.default_rng(look.iris_seed)
-    colours = _white(brush, rng)
+    colours = _white(brush, look, rng)
     # The limbus is soft: white grows over the iris.
     inside = smoothstep(1.055, 0.925, brush.out + 0.008 * brush.around(40, 1.0, 53))[..., None]
     colours = colours * (1 - inside) + _iris(brush, look) * inside

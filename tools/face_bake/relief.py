@@ -12,7 +12,7 @@ from .raster import Raster
 from .relief_cells import cells
 
 # Centimetres from black to white in the relief, of a young skin and what age adds.
-YOUNG, AGEING = 0.042, 0.020
+YOUNG, AGEING = 0.048, 0.016
 MIDDLE = 150
 # Decimetres: the net of fine lines that skin is divided by, and the pores.
 NET, PORE = 0.0095, 0.0150
@@ -69,7 +69,7 @@ class ReliefPainter:
         canvas, points = self._canvas, self._canvas.points
         lips = np.clip(canvas.lips, 0, 1)
         skin = 1 - lips
-        pores = (0.16 + 0.95 * self._porous) * (0.75 + 0.45 * age)
+        pores = (0.24 + 0.95 * self._porous) * (0.75 + 0.45 * age)
         below_eyes = _spot(points, (0.38, 7.16, 1.35), (0.22, 0.09, 0.3))
         below_eyes = np.clip(below_eyes + _spot(points, (0.60, 7.25, 1.1), (0.12, 0.14, 0.3)), 0, 1)
         height = 0.15 * self._swell + 0.05 * self._uneven - 0.17 * self._net * (0.8 + 0.4 * age)
@@ -84,7 +84,7 @@ class ReliefPainter:
         """0 a mirror, 1 no highlight; `light` (p,) is the occlusion of the neutral."""
         points, canvas = self._canvas.points, self._canvas
         noise = Noise(32)
-        rough = PLAIN + 0.020 * noise.layered(points, 9, 3) + 0.020 * self._uneven + 0.04 * self._swell
+        rough = PLAIN + 0.010 * noise.layered(points, 9, 3) + 0.015 * self._uneven + 0.02 * self._swell
         rough = rough + 0.06 * self._pores * self._porous
         for change, centre, radii in (
             (-0.14, (0, 7.00, 1.6), (0.12, 0.26, 0.4)),

@@ -48,42 +48,49 @@ float wrinkled(vec2 place) {
 // Furrows keep light out, but for what skin of this colour throws back and forth within them: most of
 // the red, and more on fair skin than on dark.
 vec3 occluded(float height, vec3 colour) {
-    return 1.0 - clamp(-height, 0.0, 0.5) * vec3(1.20, 1.40, 1.45) * (1.0 - 0.6 * min(colour, 1.0));
+    return 1.0 - clamp(-height, 0.0, 0.5) * vec3(1.05, 1.25, 1.30) * (1.0 - 0.6 * min(colour, 1.0));
 }
 #endif
 
-#if (defined(RELIEF) || defined(WRINKLES)) && !defined(LIT_BY_VERTEX)
-float height_at(vec2 place) {
-    float height = 0.0;
-#ifdef RELIEF
-    height += relief_height * texture(relief_texture, place).r;
-#endif
-#ifdef WRINKLES
-    height += wrinkle_height * wrinkled(place);
-#endif
-    return height;
-}
-
+#if defined(RELIEF) && !defined(LIT_BY_VERTEX)
 // The part of a direction that lies in the surface, of length 1.
 vec3 tangent(vec3 n, vec3 direction) {
     direction -= n * dot(n, direction);
     return direction * inversesqrt(max(dot(direction, direction), 1e-20));
 }
 
-vec3 slope_of_relief(vec3 n) {
-    vec3 across = dFdx(surface_position), down = dFdy(surface_position);
-    vec2 uv_across = dFdx(surface_uv), uv_down = dFdy(surface_uv);
-#ifdef RELIEF
-    if (relief_is_normals) {
-        vec3 told = 2.0 * texture(relief_texture, surface_uv).xyz - 256.0 / 255.0;
-        float turn = uv_across.x * uv_down.y - uv_across.y * uv_down.x < 0.0 ? -1.0 : 1.0;
-        vec3 along_u = tangent(n, (across * uv_down.y - down * uv_across.y) * turn);
-        vec3 along_v = tangent(n, (down * uv_across.x - across * uv_down.x) * turn);
-        return -(told.x * along_u + told.y * along_v) / max(told.z, 0.2);
-    }
+vec3 slope_of_normals(vec3 n, vec3 across, vec3 down, vec2 uv_across, vec2 uv_down) {
+    vec3 told = 2.0 * texture(relief_texture, surface_uv).xyz - 256.0 / 255.0;
+    float turn = uv_across.x * uv_down.y - uv_across.y * uv_down.x < 0.0 ? -1.0 : 1.0;
+    vec3 along_u = tangent(n, (across * uv_down.y - down * uv_across.y) * turn);
+    vec3 along_v = tangent(n, (down * uv_across.x - across * uv_down.x) * turn);
+    return -(told.x * along_u + told.y * along_v) / max(told.z, 0.2);
+}
+
+// How heights rise to the next pixels. Pores are as small as these and need looking up there.
+vec2 rises_of_relief(vec2 uv_across, vec2 uv_down) {
+    float here = texture(relief_texture, surface_uv).r;
+    vec2 there = vec2(texture(relief_texture, surface_uv + uv_across).r,
+                      texture(relief_texture, surface_uv + uv_down).r);
+    return relief_height * (there - here);
+}
 #endif
-    float here = height_at(surface_uv);
-    vec2 rises = vec2(height_at(surface_uv + uv_across), height_at(surface_uv + uv_down)) - here;
+
+#if (defined(RELIEF) || defined(WRINKLES)) && !defined(LIT_BY_VERTEX)
+// `furrow` is the height of the wrinkles, wide enough for the screen's own differences.
+vec3 slope_of_relief(vec3 n, float furrow) {
+    vec3 across = dFdx(surface_position), down = dFdy(surface_position);
+    vec2 rises = vec2(0.0);
+#ifdef WRINKLES
+    rises = wrinkle_height * vec2(dFdx(furrow), dFdy(furrow));
+#endif
+#ifdef RELIEF
+    vec2 uv_across = dFdx(surface_uv), uv_down = dFdy(surface_uv);
+    if (relief_is_normals) {
+        return slope_of_normals(n, across, down, uv_across, uv_down) + surface_gradient(n, across, down, rises);
+    }
+    rises += rises_of_relief(uv_across, uv_down);
+#endif
     return surface_gradient(n, across, down, rises);
 }
 #endif
@@ -121,14 +128,18 @@ void main() {
     seen += key_light * (gloss * shines * surface_shine * lobes(max(cosine, 0.0), rough));
 #else
 #if defined(RELIEF) || defined(WRINKLES)
-    vec3 slope = slope_of_relief(n);
+    float furrow = 0.0;
+#ifdef WRINKLES
+    furrow = wrinkled(surface_uv);
+#endif
+    vec3 slope = slope_of_relief(n, furrow);
 #else
     const vec3 slope = vec3(0.0);
 #endif
     vec3 view = normalize(surface_view);
     vec3 light = light_in_skin(n, view, slope, surface_bend);
 #ifdef WRINKLES
-    light *= occluded(wrinkled(surface_uv), paint.rgb);
+    light *= occluded(furrow, paint.rgb);
 #endif
     // What is steep within a pixel throws light every way.
     shines /= 1.0 + STEEPNESS * dot(slope, slope);

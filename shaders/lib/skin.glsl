@@ -40,21 +40,20 @@ vec3 light_in_skin(vec3 n, vec3 v, vec3 slope, float bend) {
     return light + rim_light * thin * thin * (0.9 * max(-behind, 0.0));
 }
 
-// GGX's distribution times pi, and what is left of it after masking.
-float lobe(float cosine, float rough) {
-    float a = rough * rough;
-    a *= a;
-    float d = cosine * cosine * (a - 1.0) + 1.0;
-    return a / (d * d);
-}
-
-// Two lobes, one wide, and one of the film of oil that only the smoothest places have, at this cosine
-// between normal and half-way vector. Each throws back as much as the other: a wide one is dim.
+// GGX's distribution times pi, and what is left of it after masking: two lobes, one wide, and one of the
+// film of oil that only the smoothest places have, at this cosine between normal and half-way vector. Each
+// throws back as much as the other: a wide one is dim.
 float lobes(float cosine, float rough) {
     float film = clamp(1.5 * (0.56 - rough), 0.04, 0.24);
     // A wide lamp is mirrored wide and dim.
     rough = min(rough + 0.25 * key_softness, 1.0);
-    return mix(lobe(cosine, min(1.25 * rough, 1.0)), lobe(cosine, 0.80 * rough), film);
+    vec2 a = min(vec2(1.25, 0.80) * rough, 1.0);
+    a *= a;
+    a *= a;
+    vec2 d = cosine * cosine * (a - 1.0) + 1.0;
+    d *= d;
+    vec2 both = a * d.yx * vec2(1.0 - film, film);
+    return (both.x + both.y) / (d.x * d.y);
 }
 
 // What a light towards `towards` loses before and after the lobes: its angle, Fresnel's rise (Schlick

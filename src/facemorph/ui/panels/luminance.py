@@ -26,7 +26,7 @@ _FLAGS = (
     | imgui.WindowFlags_.always_auto_resize
 )
 _SLIDER, _NUMBER, _MARGIN = 96.0, 48.0, 14.0
-_BUTTONS = 380.0  # at most so wide are those for view and shading
+_BUTTONS = 370.0  # at most so wide are those for view and shading
 
 
 def draw(app: App, layout: Layout) -> None:

@@ -28,6 +28,7 @@ _INERT = _FLAGS | imgui.WindowFlags_.no_inputs
 _MARGIN = 14.0
 _TITLE_PIXELS = 22.0
 _MOST_LINES = 6
+_BUTTONS_WIDTH = 356.0  # about what those at the lower right take
 _SHORT_DIRECTION = {"three-quarter": "¾", "left": "Left", "right": "Right"}
 NO_FACE = "No face is open. Drop a folder of meshes here, or press Ctrl+O."
 LEGEND_WORDS = {DISPLACEMENT: "Moved from neutral", DIFFERENCE: "Difference"}
@@ -210,9 +211,14 @@ def _hint(app: App) -> None:
     size = imgui.calc_text_size(HINT)
     if size.x > view.width - 20 * scale:
         return
-    rows = 2 * imgui.get_frame_height() + 40 * scale
-    x, y = view.x + (view.width - size.x) / 2, view.y + view.height - rows - size.y
     c, pad = colours(app), 10 * scale
+    x, y = view.x + (view.width - size.x) / 2, view.y + view.height - 30 * scale - size.y
+    beside = view.x + view.width - (_BUTTONS_WIDTH + _MARGIN) * scale - size.x - 3 * pad
+    if beside >= view.x + _MARGIN * scale + 2 * pad and not app.settings.equal_luminance:
+        # Low down, so that the chin stays free.
+        x = min(x, beside)
+    else:
+        y -= 2 * imgui.get_frame_height() + 10 * scale
     paint = imgui.get_window_draw_list()
     corner = (x + size.x + 1.6 * pad, y + size.y + 0.8 * pad)
     paint.add_rect_filled((x - 1.6 * pad, y - 0.8 * pad), corner, packed(faded(c.panel, 0.80)), 14 * scale)

@@ -142,7 +142,7 @@ def weight_row(app: App, row: Row) -> float:
 def _label_width(row: Row, room: float) -> float:
     """What of the room before the number the label takes: a usual part, or more where labels are long."""
     scale = unit()
-    usual = max(room * (0.6 if row.tag else 0.47), 60 * scale)
+    usual = max(room * (0.6 if row.tag else 0.5), 60 * scale)
     return max(usual, min(row.widest + 10 * scale, room - _USUAL_SLIDER * scale))
 
 

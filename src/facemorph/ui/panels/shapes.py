@@ -25,11 +25,12 @@ ACTIVE = "active"
 
 @dataclass(frozen=True)
 class _Line:
-    """One line of the list: a section's head, or a shape of it."""
+    """One line of the list: a section's head, or a shape of it; `widest` as `Row` has it."""
 
     section: str
     title: str = ""
     shape: Shape | None = None
+    widest: float = 0.0
 
 
 def moves_face(app: App) -> bool:
@@ -47,7 +48,7 @@ def draw(app: App) -> None:
     _search(app)
     imgui.begin_child("shapes", ImVec2(0, 0))
     _refresh_active(app, rig)
-    _list(app, _lines(app, rig), widest_of(shape.label for shape in rig.controls))
+    _list(app, _lines(app, rig))
     imgui.end_child()
 
 
@@ -112,11 +113,12 @@ def _lines(app: App, rig: Rig) -> list[_Line]:
         title = "Active" if section == ACTIVE else SET_TITLES.get(section, plain_label(section))
         lines.append(_Line(section, f"{title}  {len(shapes)}"))
         if section not in shut or words:
-            lines.extend(_Line(section, shape=shape) for shape in shapes)
+            widest = widest_of(shape.label for shape in shapes)
+            lines.extend(_Line(section, shape=shape, widest=widest) for shape in shapes)
     return lines
 
 
-def _list(app: App, lines: list[_Line], widest: float) -> None:
+def _list(app: App, lines: list[_Line]) -> None:
     if not lines:
         imgui.spacing()
         imgui.text_disabled(
@@ -133,7 +135,7 @@ def _list(app: App, lines: list[_Line], widest: float) -> None:
             if line.shape is None:
                 _section(app, line)
             else:
-                shape_row(app, line.shape, f"{line.section}/{line.shape.name}", widest)
+                shape_row(app, line.shape, f"{line.section}/{line.shape.name}", line.widest)
             imgui.pop_id()
 
 

@@ -91,4 +91,4 @@ def ragged(width: int, share: float, rng: np.random.Generator) -> np.ndarray:
     at = np.arange(width)
     broad = np.interp(at, np.linspace(0, width, 47), rng.uniform(0, 1, 47), period=width)
     fine = np.interp(at, np.arange(0, width, 3), rng.uniform(0, 1, -(-width // 3)), period=width)
-    return 0.995 - share * (0.55 * broad + 0.45 * fine)
+    return 0.995 - share * (0.68 * broad + 0.32 * fine)

@@ -18,12 +18,16 @@ _ALPHA = np.array([0, 0, 0, 255], np.uint8).view(np.uint32)[0]
 
 
 class Target:
-    """Colour and depth of one size. `texture` holds the finished picture, premultiplied by its alpha."""
+    """Colour and depth of one size. `texture` holds the finished picture, premultiplied by its alpha.
+
+    What is drawn into is made when it is first asked for: pictures alone need no depth without samples.
+    """
 
     def __init__(self, ctx: moderngl.Context) -> None:
         self._ctx = ctx
         self.size = (0, 0)
         self._colour: moderngl.Texture | None = None
+        self._finished: moderngl.Framebuffer | None = None
         self._plain: moderngl.Framebuffer | None = None
         self._sampled: moderngl.Framebuffer | None = None
 
@@ -38,8 +42,10 @@ class Target:
         """The framebuffer to draw a picture of `size` into, with so many samples (0: none)."""
         if size != self.size:
             self._resize(size)
+        assert self._colour is not None
         if samples == 0:
-            assert self._plain is not None
+            if self._plain is None:
+                self._plain = self._ctx.framebuffer([self._colour], self._ctx.depth_renderbuffer(size))
             return self._plain
         if self._sampled is None:
             self._sampled = self._ctx.framebuffer(
@@ -57,21 +63,22 @@ class Target:
         self.release()
         self._colour = self._ctx.texture(size, 4)
         self._colour.filter = (self._ctx.LINEAR, self._ctx.LINEAR)
-        self._plain = self._ctx.framebuffer([self._colour], self._ctx.depth_renderbuffer(size))
+        # Without depth: where there is some on both sides, it would be brought over with the colours.
+        self._finished = self._ctx.framebuffer([self._colour])
         self.size = size
 
     def finish(self, drawn: moderngl.Framebuffer) -> None:
         """Bring what was drawn into `texture`."""
-        if drawn is self._sampled and self._plain is not None:
-            self._ctx.copy_framebuffer(self._plain, drawn)
+        if drawn is self._sampled and self._finished is not None:
+            self._ctx.copy_framebuffer(self._finished, drawn)
 
     def read(self) -> UInt8:
         """The picture (H, W, 4) uint8, top row first, straight alpha."""
-        if self._plain is None:
+        if self._finished is None:
             raise GraphicsError("nothing has been drawn yet; call draw first.")
         width, height = self.size
         pixels = np.empty((height, width, 4), np.uint8)
-        self._plain.read_into(pixels, components=4, alignment=1)
+        self._finished.read_into(pixels, components=4, alignment=1)
         _turn_over(pixels)
         # All channels of a pixel at once: numpy is three times slower at every fourth byte.
         least = np.bitwise_and.reduce(pixels.view(np.uint32), axis=None)
@@ -81,13 +88,13 @@ class Target:
 
     def release(self) -> None:
         """Give the framebuffers back to the context."""
-        for framebuffer in (self._plain, self._sampled):
+        for framebuffer in (self._finished, self._plain, self._sampled):
             if framebuffer is not None:
                 for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
                     if attachment is not None:
                         attachment.release()
                 framebuffer.release()
-        self._plain = self._sampled = self._colour = None
+        self._finished = self._plain = self._sampled = self._colour = None
         self.size = (0, 0)
 
 

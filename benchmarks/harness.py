@@ -69,9 +69,10 @@ def once_ms(work: Callable[[], object]) -> float:
 
 @dataclass(frozen=True)
 class Run:
-    """A finished process: wall seconds, peak resident memory in MB, exit status and output."""
+    """A finished process: wall seconds, seconds of all processors, peak memory in MB, status and output."""
 
     seconds: float
+    cpu_seconds: float
     peak_mb: float
     status: int
     output: str
@@ -94,11 +95,12 @@ def process(arguments: list[str], environment: dict[str, str] | None = None) -> 
         _, status, usage = os.wait4(child.pid, 0)
         child.returncode = os.waitstatus_to_exitcode(status)
         seconds = time.perf_counter() - start
-    return Run(seconds, usage.ru_maxrss / 1024, child.returncode, output)
+    return Run(seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, child.returncode, output)
 
 
 def median_run(arguments: list[str], times: int = 5, environment: dict[str, str] | None = None) -> Run:
-    """The run whose wall time is the median of several."""
+    """The run whose wall time is the median of several, after one that does not count: it fills caches."""
+    process(arguments, environment)
     runs = sorted((process(arguments, environment) for _ in range(times)), key=lambda run: run.seconds)
     chosen = runs[len(runs) // 2]
     if chosen.status:

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from facemorph.core.rig import Rig
-from facemorph.gl import Offscreen, mipmaps
+from facemorph.gl import Offscreen, mipmaps, texture_of
 from facemorph.gl.mipmaps import mip_levels, mipmapped
 from facemorph.gl.textures import LARGEST_SIDE, SMALL_SIDE, Textures
 
@@ -173,3 +173,11 @@ def test_a_picture_drawn_first_or_after_another_is_the_same(ctx: moderngl.Contex
         second.render(head, {"jaw": 0.5}, size=(64, 48), camera="left")
         one, other = (screen.render(head, {"smile": 1.0}, size=(96, 72)) for screen in (first, second))
     assert np.array_equal(one, other)
+
+
+def test_an_interfaces_picture_keeps_its_rows_and_ends_at_its_border(ctx: moderngl.Context) -> None:
+    pixels = np.asarray(noise("RGBA", (30, 20)))
+    texture = texture_of(ctx, pixels)
+    assert np.array_equal(level_of(texture, 0, (30, 20)), pixels)
+    assert not (texture.repeat_x or texture.repeat_y)
+    texture.release()

@@ -6,6 +6,7 @@ from facemorph.gl.context import create_context, wrap_window_context
 from facemorph.gl.describe import Graphics, describe
 from facemorph.gl.heat import Legend, heat_legend
 from facemorph.gl.legend import with_legend
+from facemorph.gl.mipmaps import texture_of
 from facemorph.gl.offscreen import Offscreen, render
 from facemorph.gl.picking import Pick, pick
 from facemorph.gl.renderer import Renderer
@@ -23,6 +24,7 @@ __all__ = [
     "pick",
     "render",
     "sheet",
+    "texture_of",
     "with_legend",
     "wrap_window_context",
 ]

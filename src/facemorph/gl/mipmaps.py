@@ -12,6 +12,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from facemorph.core.arrays import UInt8
+
 if TYPE_CHECKING:
     import moderngl
     from PIL.Image import Image as Picture
@@ -71,6 +73,18 @@ def mipmapped(
         filled.add(level, step)
     assert filled is not None, "a picture has a level at least"
     return filled.texture
+
+
+def texture_of(ctx: moderngl.Context, pixels: UInt8) -> moderngl.Texture:
+    """`mipmapped` of pixels (H, W, 4) or (H, W, 3) uint8, their first row first.
+
+    For interfaces: what lies beyond its border is its border.
+    """
+    from PIL import Image
+
+    texture = mipmapped(ctx, mip_levels(Image.fromarray(pixels)), upside_down=False)
+    texture.repeat_x = texture.repeat_y = False
+    return texture
 
 
 def _loader(ctx: moderngl.Context) -> Callable[[str], int] | None:

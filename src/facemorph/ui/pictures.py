@@ -104,6 +104,6 @@ def _drawn(rig: Rig, scene: Callable[[], Scene], renderer: DrawsFaces) -> modern
     except FacemorphError:
         # What has no picture still has its words.
         return None
-    texture = renderer.texture.ctx.texture((SIDE, SIDE), 4, pixels.tobytes())
-    texture.build_mipmaps()
-    return texture
+    from facemorph.gl import texture_of
+
+    return texture_of(renderer.texture.ctx, pixels)

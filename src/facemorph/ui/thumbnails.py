@@ -108,9 +108,9 @@ class Thumbnails:
             _keep(self._folder / f"{_key(folder)}.npy", pixels)
 
     def _show(self, app: App, name: str, pixels: UInt8) -> None:
-        texture = self._ctx.texture(SIZE, 4, pixels.tobytes())
-        texture.repeat_x = texture.repeat_y = False
-        texture.build_mipmaps()
+        from facemorph.gl import texture_of
+
+        texture = texture_of(self._ctx, pixels)
         self._textures[name] = texture
         app.face_pictures[name] = texture.glo
 

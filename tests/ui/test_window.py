@@ -591,3 +591,19 @@ def test_the_first_view_and_the_key_f_show_what_the_face_says(opengl: None) -> N
         assert app.camera == first
         window.run("Left side")
         assert app.camera == Camera.of_face(framed, "left", app.views()[0].aspect)
+
+
+def test_a_view_that_nobody_moved_is_framed_anew_where_it_gets_narrow(window: Offscreen) -> None:
+    app = window.app
+    wide = app.camera
+    app.settings.right_page, app.lab.compare.split = "Compare", True
+    window.frames(3)
+    assert app.camera == Camera.of_face(app.face.rig, "front", app.views()[0].aspect)
+    assert app.camera.distance > wide.distance
+    app.lab.compare.split = False
+    window.frames(3)
+    assert app.camera == wide
+    app.camera = zoomed = wide.zoomed(2.0)
+    app.lab.compare.split = True
+    window.frames(3)
+    assert app.camera == zoomed

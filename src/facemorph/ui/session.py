@@ -15,6 +15,7 @@ from imgui_bundle import imgui
 
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look, checked_light, checked_luminance_of
+from facemorph.core.rig import Rig
 from facemorph.core.scene import Scene
 from facemorph.errors import FacemorphError, GraphicsError
 from facemorph.ui import actions, emotion_paths, files, fonts, theme
@@ -56,6 +57,7 @@ class Session:
         self._loaded: Face | None = None
         self._drawn: tuple[object, ...] = ()
         self._scene: Scene | None = None  # as drawn last; holding it keeps its arrays' identities
+        self._framed: tuple[Camera, str, float] | None = None  # as framed last, and for which view
         self._style: tuple[str, float] = ("", 0.0)
         self._wide_script = False
         self._hurried = False  # the last picture was drawn for speed, and a still one is due
@@ -169,14 +171,23 @@ class Session:
         if app.face is None:
             app.pick_at = app.picture_path = None
             return
-        if app.framing is not None:
-            app.camera = Camera.of_face(app.face.rig, app.framing, app.views()[0].aspect)
-            app.framing = None
+        self._frame(app, app.face.rig)
         if app.pick_at is not None:
             (x, y), app.pick_at = app.pick_at, None
             hit = self.renderer.pick(x, y) if self._drawn else None
             if hit is not None:
                 app.camera = app.camera.pivoted(np.asarray(hit.point, np.float64))
+
+    def _frame(self, app: App, rig: Rig) -> None:
+        """Frame the face where that is wished for, or its view changed shape and nobody moved it since."""
+        aspect = app.views()[0].aspect
+        if app.framing is None and self._framed is not None:
+            camera, direction, framed_for = self._framed
+            if app.camera == camera and aspect != framed_for:
+                app.framing = direction
+        if app.framing is not None:
+            app.camera = Camera.of_face(rig, app.framing, aspect)
+            self._framed, app.framing = (app.camera, app.framing, aspect), None
 
     def _draw_face(self, app: App) -> None:
         self._hurried = False

@@ -13,7 +13,7 @@ from PIL import Image
 
 from facemorph.core.camera import Camera
 from facemorph.core.mesh import Material
-from facemorph.core.picture import Look
+from facemorph.core.picture import LIGHT_RIGS, LightRig, Look
 from facemorph.core.rig import Rig
 from facemorph.core.wrinkles import SETS, Wrinkle, WrinkleWeights, set_weights
 from facemorph.gl import Offscreen, Renderer
@@ -31,6 +31,14 @@ in vec2 place;
 out vec3 counted;
 void main() {
     counted = set_weights(place);
+}
+"""
+LOBES = """#version 330 core
+#include "lib/skin.glsl"
+in vec2 asked;
+out float found;
+void main() {
+    found = lobes(asked.x, asked.y);
 }
 """
 EVERYWHERE = Wrinkle("all over", "green", (-1.0, -1.0, 2.0, 2.0), shapes={"smile": 1.0})
@@ -128,6 +136,64 @@ def test_flat_maps_change_nothing_and_a_relief_does(screen: Offscreen, head: Rig
     assert np.mean(np.abs(rough - plain).max(axis=2) > 3) > 0.1
 
 
+def test_wrinkles_show_over_a_picture_of_normals(screen: Offscreen, head: Rig, folder: Path) -> None:
+    Image.new("RGB", (8, 8), (128, 128, 255)).save(folder / "straight.png")
+    maps = {"bump": folder / "straight.png", "wrinkles": stripes(folder), "wrinkle_height": 0.2}
+    rig = painted(head, folder, EVERYWHERE, **maps)
+    still, smiling = (
+        screen.render(rig, {"smile": smile}, size=SIZE, look=Look(shading="skin")).astype(int)
+        for smile in (-1e-9, 1.0)
+    )
+    bare = screen.render(painted(head, folder), {"smile": 1.0}, size=SIZE).astype(int)
+    assert np.abs(smiling - bare).max() > 20
+    assert np.abs(still - screen.render(painted(head, folder), {}, size=SIZE)).max() <= 1
+
+
+@pytest.mark.parametrize("quality", ["full", "fast"])
+def test_furrows_darken_skin_even_without_depth_and_dark_skin_more(
+    ctx: moderngl.Context, head: Rig, folder: Path, quality: str
+) -> None:
+    """So that they read in flat light: shade in a fold does not depend on where light comes from."""
+    camera, look = Camera.framing(head.neutral.bounds, "front", 1.0), Look(light="flat")
+    lost = []
+    for skin in ((225, 185, 165), (85, 55, 40)):
+        means = []
+        for maps in ({}, {"wrinkles": stripes(folder), "wrinkle_height": 0.0}):
+            renderer = Renderer(ctx)
+            renderer.load(painted(head, folder, EVERYWHERE, skin=skin, **maps))
+            renderer.draw({"smile": 1.0}, camera, look, SIZE, quality=quality)  # type: ignore[arg-type]
+            shown = renderer.read()[..., :3].astype(int)
+            means.append(shown)
+            renderer.release()
+        plain, furrowed = means
+        assert (furrowed <= plain + 1).all()
+        middle = (slice(60, 100), slice(60, 100))
+        linear = [((picture[middle] / 255.0) ** 2.2).mean() for picture in means]
+        lost.append(1.0 - linear[1] / linear[0])
+    assert 0.03 < lost[0] < lost[1]
+
+
+def test_both_lobes_throw_back_all_there_is_however_rough(ctx: moderngl.Context, folder: Path) -> None:
+    """GGX's distribution D has a projected area of 1 (Walter et al. 2007, eq. 4); the lobes are pi D."""
+    shutil.copytree(data_folder("shaders") / "lib", folder / "lib")
+    (folder / "probe.vert").write_text(LOBES, encoding="utf-8")
+    program = Programs(ctx, folder).get("probe.vert", capture=("found",))
+    program["key_softness"].value = 0.0
+    # Even steps of cos^2: the integral over the hemisphere of f cos is pi times their mean.
+    square = (np.arange(40000) + 0.5) / 40000
+    screen = ctx.simple_framebuffer((4, 4))
+    screen.use()
+    for rough in (0.35, 0.5, 0.7):
+        asked = np.stack([np.sqrt(square), np.full(len(square), rough)], 1).astype("f4")
+        source, result = ctx.buffer(asked.tobytes()), ctx.buffer(reserve=4 * len(square))
+        ctx.vertex_array(program, [(source, "2f", "asked")]).transform(result, moderngl.POINTS)
+        found = np.frombuffer(result.read(), "f4").astype(float)
+        assert found.mean() == pytest.approx(1.0, rel=0.02)
+        source.release()
+        result.release()
+    screen.release()
+
+
 def test_heights_beyond_reason_are_held(screen: Offscreen, head: Rig, folder: Path) -> None:
     """A file's height in other units than its mesh's may look rough, never broken."""
     high = [
@@ -158,11 +224,13 @@ def test_a_map_that_cannot_be_read_is_told_and_left_out(
     assert any("broken.png" in problem for problem in screen.renderer.problems)
 
 
-def test_lights_adapt_to_skin_in_part(screen: Offscreen, head: Rig, folder: Path) -> None:
+@pytest.mark.parametrize("light", LIGHT_RIGS)
+def test_lights_adapt_to_skin_in_part(screen: Offscreen, head: Rig, folder: Path, light: LightRig) -> None:
     """Dark skin stays darker, but by less than its colour is; eyes see the same lights."""
     means = []
     for skin in ((225, 185, 165), (85, 55, 40)):
-        pixels = screen.render(painted(head, folder, skin=skin), {}, size=SIZE).astype(float)
+        rig = painted(head, folder, skin=skin)
+        pixels = screen.render(rig, {}, size=SIZE, look=Look(light=light)).astype(float)
         means.append(pixels[60:100, 60:100, :3].mean())
     assert 1.0 < means[0] / means[1] < 195 / 60
 

@@ -11,5 +11,7 @@ vec3 mirrored_room(vec3 direction, float blur) {
     float box = inside.x * inside.y * step(0.0, dot(direction, shine_direction));
     // Brows and lashes stand before most of it.
     float ceiling = smoothstep(-0.05, 0.90, direction.y);
-    return key_light * (6.0 * gloss * box) + mix(floor_light, sky_light * 1.8, ceiling);
+    // A wall of light is crossed by filters that keep its mirror images away: they would veil dark irises.
+    vec3 room = mix(floor_light, sky_light * 1.8, ceiling) * (1.0 - key_softness * key_softness);
+    return key_light * (6.0 * gloss * box) + room;
 }

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facemorph.core.arrays import Bool, Float64, Int32, Int64
+from facemorph.core.arrays import Bool, Float64, Int32, Int64, distinct
 from facemorph.core.mesh import Mesh
 
 _CUT_BUDGET = 2e7
@@ -62,7 +62,7 @@ def _cut_concave(mesh: Mesh, corners: Int64, starts: Int64, sizes: Int64, offset
 def _concave(mesh: Mesh, starts: Int64, sizes: Int64) -> Bool:
     """Polygons with a corner that turns against the polygon's own normal, (P,) bool."""
     result = np.zeros(len(sizes), bool)
-    for size in np.unique(sizes[sizes > 3]):
+    for size in distinct(sizes[sizes > 3]):
         chosen = np.flatnonzero(sizes == size)
         ring = mesh.corner_vertices[starts[chosen][:, None] + np.arange(size)]
         points = mesh.positions[ring].astype(np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Int32, Int64
+from facemorph.core.arrays import Float32, Int32, Int64, distinct
 from facemorph.core.normals import vertex_normals
 
 # A head with neck and hair is about so many centimetres high; meshes need not say their unit.
@@ -42,5 +42,5 @@ def bends(positions: Float32, triangles: Int32) -> Float32:
 def _edges(triangles: Int64, vertex_count: int) -> Int64:
     """Every edge (E, 2) once."""
     pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    keys = np.unique(pairs.min(axis=1) * vertex_count + pairs.max(axis=1))
+    keys = distinct(pairs.min(axis=1) * vertex_count + pairs.max(axis=1))
     return np.stack([keys // vertex_count, keys % vertex_count], axis=1)

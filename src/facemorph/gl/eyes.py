@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facemorph.core.arrays import Float32, Float64, Int64
+from facemorph.core.arrays import Float32, Float64, Int64, distinct
 from facemorph.core.mesh import Mesh
 from facemorph.core.rig import Rig
 from facemorph.gl.followed import Followed
@@ -121,7 +121,7 @@ def _eye(mesh: Mesh, group: str) -> _Eye | None:
     corners = corners[mesh.corner_uvs[corners] >= 0]
     if not len(corners):
         return None
-    skin = np.unique(mesh.corner_vertices[of_skin])
+    skin = distinct(mesh.corner_vertices[of_skin])
     place = mesh.uvs[mesh.corner_uvs[corners]].astype(np.float64) - 0.5
     vertices = mesh.corner_vertices[corners]
     found = []

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from facemorph.core.arrays import Bool, Float32, Int32
+from facemorph.core.arrays import Bool, Float32, Int32, distinct
 from facemorph.core.mesh import Mesh
 
 LOW_PART = 0.25  # of the height: a cut that reaches higher is the rim of a mask, not of a bust
@@ -38,7 +38,7 @@ def hem_of(mesh: Mesh, triangles: Int32, apart: Bool | None = None) -> Hem | Non
     rim = _open_edges(triangles[below[triangles].any(axis=1) & own], below, mesh.vertex_count)
     if not len(rim) or not below[rim].all():
         return None
-    points = mesh.positions[np.unique(rim)]
+    points = mesh.positions[distinct(rim)]
     if float(np.ptp(points[:, 0])) < WIDE_ENOUGH * float(np.ptp(mesh.positions[:, 0])):
         return None
     kept = np.ones(mesh.vertex_count, np.float32)

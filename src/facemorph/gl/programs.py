@@ -103,7 +103,7 @@ def read_source(folder: Path, name: str, define: Sequence[str] = ()) -> Source:
             return
         seen.add(wanted)
         for number, line in _repeated(_lines_of(folder, wanted, asked_by), define):
-            included = _INCLUDE.match(line)
+            included = _INCLUDE.match(line) if "#include" in line else None
             if included:
                 take(included[1], f"{wanted}:{number}")
                 continue
@@ -123,7 +123,7 @@ def _repeated(lines: Sequence[str], define: Sequence[str]) -> Iterator[tuple[int
     counts = dict(switch.split() for switch in define if " " in switch)
     numbered = iter(enumerate(lines, start=1))
     for number, line in numbered:
-        block = _REPEAT.match(line)
+        block = _REPEAT.match(line) if "#repeat" in line else None
         if not block:
             yield number, line
             continue

@@ -17,7 +17,7 @@ if not (TOOLS / "face_bake").is_dir():
     pytest.skip("the bake's tools are not beside these tests", allow_module_level=True)
 sys.path.insert(0, str(TOOLS))
 
-from face_bake.correctives import JAW_OVER, JAW_SHARE  # noqa: E402
+from face_bake.correctives import HALF_WAY_PAIRS, JAW_OVER, JAW_SHARE, PAIRS  # noqa: E402
 from face_bake.creases import Creases  # noqa: E402
 from face_bake.recipes import (  # noqa: E402
     EXPRESSIONS,
@@ -165,3 +165,9 @@ def test_lips_close_on_the_jaw_as_far_as_it_is_open():
         added = (1 - alone) * hat(opening, *JAW_OVER) / JAW_SHARE
         assert opening * (alone + added) == pytest.approx(opening, abs=0.05)
     assert hat(1.0, *JAW_OVER) == pytest.approx(JAW_SHARE)
+
+
+def test_blinks_are_mended_half_way_to_where_lids_open_early_and_at_full():
+    opened = {name for name, recipe in EXPRESSIONS.items() if recipe.get("arkit:eyeWide", 0) > 0}
+    assert {mood for mood, _ in HALF_WAY_PAIRS} == opened & LEADERS.keys()
+    assert set(HALF_WAY_PAIRS) <= set(PAIRS)

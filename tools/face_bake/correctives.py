@@ -43,6 +43,10 @@ PAIRS = (
     *((mood, "AU43") for mood in MOODS),
     *((mood, f"eyeBlink{side}") for mood in MOODS for side in SIDES),
 )
+# Lids that lead open further half way than a blink closes by itself.
+HALF_WAY_PAIRS = tuple(
+    (mood, blink) for mood in ("surprised", "afraid") for blink in ("AU43", "eyeBlinkLeft", "eyeBlinkRight")
+)
 # Lips close on an open jaw as far as they are told to, however open it is: the hat over jawOpen rises at once
 # and stays. It is what follows from JAW_SHARE at the jaw fully open.
 LIPS_ON_JAW, LIPS, JAW = "mouthClose on an open jaw", "mouthClose", "jawOpen"
@@ -98,12 +102,20 @@ def correctives(body: Body, recipes: dict, moves: dict[str, np.ndarray]) -> list
         for name in HALF_WAY
         if half_way(name).startswith(f"{name} ")
     ]
-    pairs = [
-        MadeCorrective(
-            together(one, other),
-            at(_both(recipes[one], recipes[other])) - moves[one] - moves[other],
-        )
+    pairs = {
+        (one, other): at(_both(recipes[one], recipes[other])) - moves[one] - moves[other]
         for one, other in PAIRS
+    }
+    blinks = [
+        MadeCorrective(
+            together(half_way(mood), blink),
+            at(_both(half_way_recipe(mood, recipes[mood]), recipes[blink]))
+            - at(half_way_recipe(mood, recipes[mood]))
+            - moves[blink]
+            - 0.5 * pairs[mood, blink],
+        )
+        for mood, blink in HALF_WAY_PAIRS
     ]
     closed = at(_both(recipes[JAW], CLOSING)) - moves[JAW] - moves[LIPS]
-    return [*halves, *pairs, MadeCorrective(LIPS_ON_JAW, closed / JAW_SHARE)]
+    named = [MadeCorrective(together(*pair), offsets) for pair, offsets in pairs.items()]
+    return [*halves, *named, *blinks, MadeCorrective(LIPS_ON_JAW, closed / JAW_SHARE)]

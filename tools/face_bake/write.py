@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .correctives import HALF_WAY, JAW, JAW_OVER, LIPS, LIPS_ON_JAW, PAIRS, half_way, together
+from .correctives import HALF_WAY, HALF_WAY_PAIRS, JAW, JAW_OVER, LIPS, LIPS_ON_JAW, PAIRS, half_way, together
 from .hair_atlas import hair_material
 from .head import Head
 from .lash_pictures import brow_material, lash_material
@@ -96,6 +96,9 @@ def _rules() -> list[str]:
     for one, other in PAIRS:
         lines += ["", "[[correctives]]", f'shape = "{together(one, other)}"']
         lines += [f'product = ["{one}", "{other}"]']
+    for mood, blink in HALF_WAY_PAIRS:
+        lines += ["", "[[correctives]]", f'shape = "{together(half_way(mood), blink)}"']
+        lines += [f'product = ["{blink}"]', f'hat = "{mood}"']
     lines += ["", "[[correctives]]", f'shape = "{LIPS_ON_JAW}"', f'product = ["{LIPS}"]']
     lines += [f'hat = "{JAW}"', f"over = [{', '.join(str(foot) for foot in JAW_OVER)}]"]
     return lines

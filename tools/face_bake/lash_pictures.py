@@ -81,7 +81,10 @@ def _fringe(rng: np.random.Generator, height: int, clumps: int, reach: float, wi
     rows = strokes.rows
     for k in range(clumps):
         along = (k + rng.uniform(0.25, 0.75)) / clumps
-        envelope = np.interp(along, [0, 0.12, 0.35, 0.75, 0.93, 1], [0.25, 0.5, 0.85, 1.0, 0.8, 0.4])
+        # Hardly any grow beside the caruncle.
+        envelope = np.interp(
+            along, [0, 0.10, 0.20, 0.38, 0.75, 0.93, 1], [0.06, 0.14, 0.52, 0.85, 1, 0.8, 0.4]
+        )
         fan = (along - 0.45) * 34
         for member in range(rng.integers(1, 4)):
             root = along * LASH_WIDTH + (member - 1) * rng.uniform(3.0, 5.0)

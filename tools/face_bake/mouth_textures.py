@@ -11,7 +11,7 @@ TEETH = 14
 IVORY, ROOT, EDGE = (
     np.array([0.985, 0.925, 0.815]),
     np.array([0.93, 0.81, 0.64]),
-    np.array([0.84, 0.85, 0.84]),
+    np.array([0.86, 0.855, 0.825]),
 )
 AGED = np.array([0.97, 0.935, 0.87])
 GUM, LINING, PALATE = np.array([0.80, 0.50, 0.47]), np.array([0.66, 0.27, 0.26]), np.array([0.76, 0.46, 0.43])

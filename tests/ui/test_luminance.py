@@ -39,7 +39,7 @@ def test_every_light_gives_the_luminance_that_was_asked_for(window: Offscreen) -
     on(window, 0.12)
     for light in ("Flat light", "Window light", "Studio light"):
         window.run(light)
-        assert shown_luminance(window) == pytest.approx(0.12, rel=0.005), light
+        assert shown_luminance(window) == pytest.approx(0.12, rel=0.01), light
     window.run("Equal luminance")
     assert shown_luminance(window) == pytest.approx(before, rel=1e-6)
 
@@ -50,7 +50,7 @@ def test_the_strip_sets_how_bright_and_takes_it_away(window: Offscreen) -> None:
     window.drag(SLIDER, (SLIDER[0] - 20, SLIDER[1]))
     aimed = window.app.settings.luminance
     assert 0.02 < aimed < 0.2
-    assert shown_luminance(window) == pytest.approx(aimed, rel=0.005)
+    assert shown_luminance(window) == pytest.approx(aimed, rel=0.01)
     window.click(SLIDER[0], SLIDER[1], 1)
     assert window.app.settings.luminance == 0.25
     window.click(293, SLIDER[1])
@@ -76,7 +76,7 @@ def test_a_turning_face_keeps_its_light_until_it_stands_still(
     moving = {exposure for quality, exposure in drawn if quality == "fast"}
     assert len(moving) == 1
     assert drawn[-1][0] == "full"
-    assert shown_luminance(window) == pytest.approx(0.25, rel=0.005)
+    assert shown_luminance(window) == pytest.approx(0.25, rel=0.01)
 
 
 def test_expressions_keep_the_neutrals_light_or_have_their_own(window: Offscreen) -> None:
@@ -89,9 +89,9 @@ def test_expressions_keep_the_neutrals_light_or_have_their_own(window: Offscreen
             window.frames(3)
             exposures.append(window.session._exposing._exposure)
     assert exposures[0] == exposures[1]
-    assert exposures[2] == pytest.approx(exposures[0], rel=0.005)
+    assert exposures[2] == pytest.approx(exposures[0], rel=0.01)
     assert exposures[3] != exposures[2]
-    assert shown_luminance(window) == pytest.approx(0.25, rel=0.005)
+    assert shown_luminance(window) == pytest.approx(0.25, rel=0.01)
 
 
 def test_a_saved_picture_has_it(window: Offscreen, tmp_path: Path) -> None:

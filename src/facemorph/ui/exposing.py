@@ -9,7 +9,7 @@ from facemorph.core.camera import Camera
 from facemorph.core.picture import Look
 from facemorph.core.scene import Scene
 from facemorph.errors import OptionError
-from facemorph.gl.luminance import LIT, EqualLuminance
+from facemorph.gl.luminance import LIT, SMALL_SIDE, EqualLuminance
 
 if TYPE_CHECKING:
     from facemorph.gl.renderer import Renderer
@@ -38,10 +38,13 @@ class Exposing:
         size: tuple[int, int],
         *,
         moving: bool,
+        exactly: bool = False,
     ) -> Look:
         """`look` as it is to be drawn. Seeking the exposure leaves another picture in the renderer.
 
-        A moving camera or pose keeps the exposure that it began with: seeking takes several pictures.
+        A moving camera or pose keeps the exposure that it began with: seeking takes several pictures. They
+        are small ones, whose luminance is that of `size` within two or three percent, unless it is wanted
+        `exactly`.
         """
         plain = replace(look, luminance=None)
         if look.luminance is None or look.shading not in LIT:
@@ -53,7 +56,8 @@ class Exposing:
             return plain
         key = (look.luminance, look.luminance_of, look.light, look.shading)
         if not (moving and key == self._key):
-            self._key, self._exposure = key, self._sought(renderer, scene, camera, look, size)
+            pixels = size if exactly else _small(size)
+            self._key, self._exposure = key, self._sought(renderer, scene, camera, look, pixels)
         return replace(plain, exposure=self._exposure)
 
     def _sought(
@@ -68,3 +72,8 @@ class Exposing:
             return look.exposure
         self.problem = ""
         return settled.exposure
+
+
+def _small(size: tuple[int, int]) -> tuple[int, int]:
+    scale = min(SMALL_SIDE / max(size), 1.0)
+    return max(round(size[0] * scale), 1), max(round(size[1] * scale), 1)

@@ -215,6 +215,7 @@ class Session:
             app.camera,
             app.shown_look,
             view.size,
+            _exactly_lit(app),
         )
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
             self._scene = scene
@@ -230,7 +231,10 @@ class Session:
 
     def _exposed(self, app: App, scene: Scene, size: tuple[int, int], quality: Quality) -> Look:
         moving = quality == "fast"
-        look = self._exposing.look(self.renderer, scene, app.camera, app.shown_look, size, moving=moving)
+        exactly = _exactly_lit(app)
+        look = self._exposing.look(
+            self.renderer, scene, app.camera, app.shown_look, size, moving=moving, exactly=exactly
+        )
         # The interface was built before: what there is to say takes one more frame.
         self._hurried |= app.luminance_problem != self._exposing.problem
         app.luminance_problem = self._exposing.problem
@@ -258,6 +262,11 @@ class Session:
             files.write_picture(app, path, self.renderer.read(), self.renderer.legend)
         else:
             files.write_picture(app, path, side_by_side(self.renderer, self.split.renderer))
+
+
+def _exactly_lit(app: App) -> bool:
+    """Whether the next picture is one to keep, whose luminance must be exact."""
+    return app.picture_path is not None and app.shown_look.luminance is not None
 
 
 def _another(renderer: DrawsFaces) -> DrawsFaces:

@@ -95,14 +95,15 @@ class SplitView:
         renderer = self._ready(app)
         look = replace(app.look, shading="heat") if split.heat else app.shown_look
         scene = split.right
+        exactly = app.picture_path is not None and look.luminance is not None
         wanted = (
             app.face, scene.pose, id(scene.offsets), id(scene.reference), partner_key(scene), app.camera,
-            look, view.size,
+            look, view.size, exactly,
         )  # fmt: skip
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
             self._split = split
             exposed = self._exposing.look(
-                renderer, scene, app.camera, look, view.size, moving=quality == "fast"
+                renderer, scene, app.camera, look, view.size, moving=quality == "fast", exactly=exactly
             )
             renderer.draw(scene, app.camera, exposed, view.size, quality=quality)
             self._drawn = (*wanted, quality)

@@ -15,7 +15,8 @@ from facemorph.ui.widgets import colours, icon_button, row_label, slim_slider, t
 TITLE = "Skin luminance"
 _TIP = (
     "The mean luminance of the skin, as a part of white's: CIE 1931 Y of the picture on an sRGB screen. "
-    "All faces are lit until they have it. Drag, double-click to type, right-click for the usual one"
+    "All faces are lit until they have it: within three percent here, exactly in saved pictures. "
+    "Drag, double-click to type, right-click for the usual one"
 )
 _FLAGS = (
     imgui.WindowFlags_.no_decoration

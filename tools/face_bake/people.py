@@ -204,7 +204,7 @@ ZOLA = Person(
         lash_length=1.15,
         lash_density=1.1,
         brow_arch=0.012,
-        lip_strength=0.8,
+        lip_strength=0.72,
         gum_pigment=0.55,
         lid=(0.88, 0.82, 0.80),
     ),

@@ -97,7 +97,7 @@ class ReliefPainter:
             rough = rough + change * _spot(points, centre, radii)
         rough = rough + 0.10 * smoothstep(6.20, 5.90, points[:, 1])
         rough = rough + 0.10 * look.stubble * smoothstep(6.95, 6.75, points[:, 1])
-        rough = rough * (1 - canvas.lips) + (0.42 + 0.05 * self._lip_creases) * canvas.lips
+        rough = rough * (1 - canvas.lips) + (0.38 + 0.06 * self._lip_creases) * canvas.lips
         # What the neutral hides, and what hair grows from, does not shine.
         hidden = np.maximum(smoothstep(0.55, 0.25, light), 0.9 * (growth(points, look) > 0.3))
         # Light from behind would shine along the line where lips meet.

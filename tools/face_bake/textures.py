@@ -37,7 +37,7 @@ class Painter:
         source_uv = self._raster.sample(fine.source_uv, uv_triangles)
         island = np.repeat(fine.island, 2)[self._raster.owner]
         upper, lower = (self._lid_distance(points, upper) for upper in (True, False))
-        lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 1.3, source_uv) * 1.25 - 0.12, 0, 1)
+        lips = np.clip(mask_at(head.source.mask("mpfb_lips.jpg"), 2.0, source_uv) * 1.25 - 0.12, 0, 1)
         ears = mask_at(head.source.mask("mpfb_ears.jpg"), 3, source_uv)
         lid_edge = self._raster.sample(fine.operator @ head.lids.edges(), self._triangles)
         outside, mouth = island == HEAD, (island == MOUTH).astype(np.float32)

@@ -25,8 +25,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
-import numpy as np
-
 from facemorph.core.arrays import Float32
 from facemorph.core.mesh import Mesh
 from facemorph.core.pose import NEUTRAL
@@ -34,7 +32,7 @@ from facemorph.core.progress import Progress
 from facemorph.core.rig import FaceInfo, Landmark, Rig, Shape, plain_label
 from facemorph.errors import FaceFolderError, MeshDataError
 from facemorph.io import correctives_toml, frame_toml, wrinkles_toml
-from facemorph.io.face_set import check_size, read_set
+from facemorph.io.face_set import read_set
 from facemorph.io.inside import inside
 from facemorph.io.limits import SHAPES, shortened
 from facemorph.io.plain_folder import neutral_among, plain_meshes, shapes_of
@@ -87,9 +85,8 @@ def load_described(folder: Path, progress: Progress, cache: bool) -> Rig:
     more = None
     if face.more is not None:
         progress(0.95, f"reading {face.more.name}")
-        more = read_shapes(face.more, count)
-        check_size(len(deltas) + len(more.shapes), count)
-        deltas = np.concatenate([deltas, more.deltas])
+        more = read_shapes(face.more, count, deltas)
+        deltas = more.deltas
     return described_rig(face, found.neutral, deltas, more)
 
 

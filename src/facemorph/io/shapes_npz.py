@@ -30,15 +30,19 @@ _OPTIONAL = ("region_names", "region_weights")
 
 @dataclass(frozen=True, eq=False)
 class MoreShapes:
-    """K shapes, their deltas (K, V, 3), and the face's soft regions where the file has them."""
+    """K shapes, their deltas (K, V, 3) after those asked for, and soft regions where the file has them."""
 
     shapes: tuple[Shape, ...]
     deltas: Float32
     regions: Regions | None
 
 
-def read_shapes(path: Path, vertex_count: int) -> MoreShapes:
-    """The shapes in `path` for a neutral of `vertex_count` vertices. Raises `FaceFolderError`."""
+def read_shapes(path: Path, vertex_count: int, after: Float32 | None = None) -> MoreShapes:
+    """The shapes in `path` for a neutral of `vertex_count` vertices. Raises `FaceFolderError`.
+
+    after   deltas of other shapes, which come before those of `path` in the result's: joined later, all
+            would lie in memory twice
+    """
     try:
         arrays = read_npz(path, _NEEDED, _OPTIONAL)
         version, vertices = whole(arrays, "format"), whole(arrays, "vertices")
@@ -47,8 +51,9 @@ def read_shapes(path: Path, vertex_count: int) -> MoreShapes:
         if vertices != vertex_count:
             raise NpzError(f"is made for {vertices:,} vertices; the neutral has {vertex_count:,}")
         shapes = _shapes(arrays)
-        check_size(len(shapes), vertices)
-        return MoreShapes(shapes, _deltas(arrays, len(shapes), vertices), _regions(arrays, vertices))
+        before = np.empty((0, vertices, 3), np.float32) if after is None else after
+        check_size(len(before) + len(shapes), vertices)
+        return MoreShapes(shapes, _deltas(arrays, len(shapes), before), _regions(arrays, vertices))
     except NpzError as error:
         raise FaceFolderError(f"{path} {error}.") from error
 
@@ -60,7 +65,9 @@ def _shapes(arrays: Arrays) -> tuple[Shape, ...]:
     return tuple(Shape(*three) for three in zip(names, labels, sets, strict=True))
 
 
-def _deltas(arrays: Arrays, k: int, vertices: int) -> Float32:
+def _deltas(arrays: Arrays, k: int, before: Float32) -> Float32:
+    """Those of `before`, then of the file's k shapes."""
+    first, vertices = before.shape[:2]
     starts = table(arrays, "starts", "iu", (k + 1,)).astype(np.int64)
     index = table(arrays, "index", "iu", (None,))
     delta = table(arrays, "delta", "i", (len(index), 3))
@@ -71,10 +78,12 @@ def _deltas(arrays: Arrays, k: int, vertices: int) -> Float32:
         raise NpzError(f"moves vertices outside of 0 to {vertices - 1:,}")
     if delta.dtype.itemsize > 2 or not bool(np.isfinite(scale * np.float32(1 << 15)).all()):
         raise NpzError("has deltas that are not int16, or a scale that is not finite")
-    deltas = np.zeros((k, vertices, 3), np.float32)
+    # Of zeros that stay so, which are most, the system keeps no memory.
+    deltas = np.zeros((first + k, vertices, 3), np.float32)
+    deltas[:first] = before
     for shape in range(k):
         part = slice(int(starts[shape]), int(starts[shape + 1]))
-        deltas[shape, index[part]] = delta[part] * scale[shape]
+        deltas[first + shape, index[part]] = delta[part] * scale[shape]
     return deltas
 
 

@@ -76,12 +76,22 @@ def test_words_of_any_case_and_noun_are_understood(tmp_path: Path) -> None:
     assert answers == {1: "happy", 2: "sad", 3: "afraid"}
 
 
+def test_neutral_may_be_answered_where_none_is_shown(tmp_path: Path) -> None:
+    path = tmp_path / "answers.csv"
+    path.write_text("number,label\n1,neutral\n2,happy\n")
+    answers = rating_scores.read_answers(path, study(1))
+    assert answers == {1: "neutral", 2: "happy"}
+    lines = rating_scores.report(rating_scores.rated(study(1), answers))
+    table = next(line for line in lines if line.startswith("shown / named"))
+    assert table.split()[3:] == [*dict.fromkeys(t.emotion for t in study(1)), "neutral", "-"]
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
         ("1,happy\n1,sad\n", "answered before"),
         ("99,happy\n", "number of the key"),
-        ("1,bored\n", "afraid, happy, sad"),
+        ("1,bored\n", "afraid, happy, neutral, sad"),
         ("number,label\nfirst,happy\n", "number,label"),
         ("1\n", "number,label"),
     ],

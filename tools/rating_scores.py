@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from facemorph.core.pose import NEUTRAL
 from facemorph.errors import OptionError
 
 KEY_COLUMNS = ("number", "page", "face", "emotion", "intensity", "view")
@@ -73,7 +74,8 @@ def read_answers(path: Path, tiles: Sequence[Tile]) -> dict[int, str]:
     Raises `OptionError` for a number or a label that the key does not know, and for a number given twice.
     """
     known = {tile.number for tile in tiles}
-    labels = _labels(tile.emotion for tile in tiles)
+    # Raters may be told that a face can be neutral though none is shown.
+    labels = _labels([*(tile.emotion for tile in tiles), NEUTRAL])
     answers: dict[int, str] = {}
     for line, row in enumerate(_rows(path), start=1):
         cells = [cell.strip() for cell in row]
@@ -136,7 +138,8 @@ def _share(title: str, ratings: Sequence[Rated]) -> str:
 
 def _confusion(ratings: Sequence[Rated], emotions: Sequence[str]) -> list[str]:
     count = Counter((rating.tile.emotion, rating.answer) for rating in ratings)
-    columns = [*emotions, *([NONE] if any(rating.answer == NONE for rating in ratings) else [])]
+    answers = {rating.answer for rating in ratings}
+    columns = [*emotions, *(extra for extra in (NEUTRAL, NONE) if extra in answers - set(emotions))]
     width = max(len(name) for name in (*columns, "shown / named")) + 2
     head = "shown / named".ljust(width) + "".join(name.rjust(width) for name in columns)
     rows = [

@@ -167,5 +167,5 @@ def test_points_chosen_by_the_error_open_closed_lips():
     source, target = rig.positions({}), rig.positions({"surprised": 1.0})
     covering = rebuilt(rig, source, target, control_vertices(rig, 40)).rms_percent
     chosen = rebuilt(rig, source, target, rebuilding_vertices(rig, source, target, 40)).rms_percent
-    assert chosen < 0.8
+    assert chosen < 1.0
     assert chosen < 0.85 * covering

@@ -128,6 +128,19 @@ def test_any_rising_curve_is_solved(power: float, target: float) -> None:
     assert curve(exposure) == pytest.approx(target, rel=0.001)
 
 
+@pytest.mark.parametrize("target", [0.05, 0.1, 0.25])
+def test_skin_of_one_colour_comes_as_near_as_eight_bits_can(target: float) -> None:
+    def stored(luminance: float) -> float:
+        return 255.0 * (1.055 * luminance ** (1.0 / 2.4) - 0.055)
+
+    def shown(exposure: float) -> float:
+        level = round(stored(min(0.3 * exposure, 1.0)))
+        return float(((level / 255.0 + 0.055) / 1.055) ** 2.4)
+
+    exposure, _ = solved(shown, target, 1.0)
+    assert abs(stored(shown(exposure)) - stored(target)) <= 0.51
+
+
 def test_a_picture_without_skin_is_refused() -> None:
     with pytest.raises(OptionError, match="no skin"):
         solved(lambda exposure: float("nan"), 0.25, 1.0)

@@ -118,6 +118,12 @@ class EqualLuminance:
         return luminance
 
 
+def _half_step(luminance: float) -> float:
+    """Half of what one step of an 8-bit grey of this luminance changes it by (IEC 61966-2-1)."""
+    stored = 1.055 * max(luminance, 0.0031308) ** (1.0 / 2.4) - 0.055
+    return float(((stored + 0.5 / 255.0 + 0.055) / 1.055) ** 2.4 - luminance)
+
+
 def solved(
     measure: Callable[[float], float], target: float, start: float, slope: float = _USUAL_SLOPE
 ) -> tuple[float, float]:
@@ -126,12 +132,14 @@ def solved(
     Raises `OptionError` where it cannot be reached.
     """
     exposure, before = start, (0.0, 0.0)
+    nearest = (math.inf, start)
     for step in range(_MOST_STEPS):
         found = measure(exposure)
         if not found > 0.0:
             raise OptionError("equal luminance is the skin's; no skin is to be seen in the picture.")
         if abs(found / target - 1.0) <= CLOSE:
             return exposure, slope
+        nearest = min(nearest, (abs(found - target), exposure))
         here = (math.log(exposure), math.log(found))
         if step and here[0] != before[0]:
             slope = min(max((here[1] - before[1]) / (here[0] - before[0]), 0.2), 2.0)
@@ -139,6 +147,9 @@ def solved(
         exposure = math.exp(here[0] + (math.log(target) - here[1]) / slope)
         if exposure > _MOST_EXPOSURE:
             break
+    # Skin of one colour has no values between those of 8 bits.
+    if nearest[0] <= _half_step(target):
+        return nearest[1], slope
     raise OptionError(
         f"light cannot bring this face to a luminance of {target:g}; the nearest was {found:.3f}. "
         "Ask for one that all your faces reach."

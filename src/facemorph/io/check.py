@@ -16,6 +16,7 @@ from facemorph.core.rig import Shape
 from facemorph.errors import FaceFolderError, FacemorphError, MeshFileError
 from facemorph.io.check_mesh import mesh_findings
 from facemorph.io.check_shape import Movements
+from facemorph.io.correctives_toml import read_correctives
 from facemorph.io.face_set import HINTS, check_size
 from facemorph.io.face_toml import FACE_TOML, DescribedFace, described_rig, read_face_info, unknown_keys
 from facemorph.io.limits import read_bytes, shortened
@@ -27,6 +28,7 @@ from facemorph.io.plain_folder import is_called_neutral, plain_meshes
 from facemorph.io.read import read_mesh
 from facemorph.io.report import Finding, Level, Report
 from facemorph.io.shapes_npz import MoreShapes, read_shapes
+from facemorph.io.toml_table import read_table
 
 
 def check_folder(path: Path | str, *, progress: Progress = silent) -> Report:
@@ -171,9 +173,17 @@ class _Check:
         self.add("error", path, unlike.cause, f"{unlike.problem} {hint}")
         return False
 
-    def _shape(self, movements: Movements, path: Path, prefix: str, shape: Shape, delta: Float32) -> None:
+    def _shape(
+        self,
+        movements: Movements,
+        path: Path,
+        prefix: str,
+        shape: Shape,
+        delta: Float32,
+        under: Float32 | None = None,
+    ) -> None:
         empty = False
-        for kind, message in movements.findings(delta):
+        for kind, message in movements.findings(delta, under):
             level: Level = "error" if kind in ("scale", "turned") else "warning"
             empty = empty or kind == "empty"
             self.add(level, path, kind, prefix + message)
@@ -191,6 +201,23 @@ class _Check:
         except FacemorphError as error:
             self.add("error", path, "unreadable", str(error).removeprefix(f"{path} "))
             return None
+        drivers = self._drivers()
         for shape, delta in zip(more.shapes, more.deltas, strict=True):
-            self._shape(movements, path, f"{shape.name} ", shape, delta)
+            known = {one.name: moves for one, moves in self._good}
+            at = drivers.get(shape.name, {})
+            moved = [known[name] * np.float32(weight) for name, weight in at.items() if name in known]
+            under = sum(moved[1:], start=moved[0]) if moved else None
+            self._shape(movements, path, f"{shape.name} ", shape, delta, under)
         return more
+
+    def _drivers(self) -> dict[str, dict[str, float]]:
+        """Of each corrective, the weights of the shapes by which it is on whole."""
+        try:
+            rules = read_correctives(read_table(self._folder / FACE_TOML))
+        except FaceFolderError:
+            # It is told where the whole description is read.
+            return {}
+        return {
+            rule.shape: {**dict.fromkeys(rule.product, 1.0), **{hat.over: hat.peak for hat in rule.hats}}
+            for rule in rules
+        }

@@ -41,8 +41,11 @@ class Movements:
         self._places = neutral.positions.astype(np.float64)
         self._size = max(neutral.diagonal, float(np.finfo(np.float32).tiny))
 
-    def findings(self, delta: Float32) -> Iterator[tuple[str, str]]:
-        """Kind and message of each thing that looks wrong with a shape's deltas (V, 3)."""
+    def findings(self, delta: Float32, under: Float32 | None = None) -> Iterator[tuple[str, str]]:
+        """Kind and message of each thing that looks wrong with a shape's deltas (V, 3).
+
+        under  (V, 3), of a corrective: what the shapes move that switch it on, without which it means nothing
+        """
         moved = np.linalg.norm(delta.astype(np.float64), axis=1)
         if float(moved.max()) <= STILL * self._size:
             yield "empty", "moves no vertex."
@@ -58,7 +61,7 @@ class Movements:
             # That tells what they do to the polygons around them; these are looked at as if they went along.
             delta = delta.copy()
             delta[stray] = self._means(delta)[stray]
-        yield from self._surface(delta)
+        yield from self._surface(delta if under is None else delta + under)
 
     def alike(self, delta: Float32, other: Float32) -> bool:
         """Whether two shapes move every vertex alike."""

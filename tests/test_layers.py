@@ -11,8 +11,9 @@ PACKAGE = Path(__file__).resolve().parent.parent / "src" / "facemorph"
 LAYERS = [
     {"cli"},
     {"ui"},
-    {"api"},
+    {"api", "fitting"},
     {"gl", "io"},
+    {"fit"},
     {"deform"},
     {"core"},
     {"errors", "resources", "__init__", "__main__"},
@@ -25,7 +26,9 @@ ONLY_IN = {
     "glfw": {"ui"},
     "trimesh": {"io"},
     "PIL": {"gl", "io"},
-    "scipy": {"deform"},
+    "scipy": {"deform", "fit"},
+    "threadpoolctl": {"fit"},
+    "matplotlib": {"fit"},
 }
 # The package's front door looks at every layer, lazily.
 FREE = {"__init__", "__main__"}

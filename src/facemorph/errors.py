@@ -9,6 +9,7 @@
       ControlsFileError             a file of points or regions that is none, or is for another face
       UnknownNameError              a shape, expression, face, unit or option nobody knows
       DeformError                   controls of a method that make no deformation: coincident points, ...
+      FitError                      examples or scans that no face can be made of, and why
       PoseError                     a weight or position on the slider that is no usable number
       OptionError                   an option whose value cannot be used
       OutputError                   a file that cannot be written, or would overwrite something
@@ -86,6 +87,10 @@ class PoseError(FacemorphError):
 
 class DeformError(FacemorphError):
     """Controls of a method that make no deformation: coincident control points, a singular system."""
+
+
+class FitError(FacemorphError):
+    """A template, neutral, example or scan that no face can be made of; says which one and why."""
 
 
 class OptionError(FacemorphError):

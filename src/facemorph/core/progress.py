@@ -12,3 +12,8 @@ Progress: TypeAlias = Callable[[float, str], None]
 
 def silent(fraction: float, doing: str) -> None:
     """A `Progress` that nobody looks at."""
+
+
+def part_of(progress: Progress, begin: float, end: float) -> Progress:
+    """The `Progress` of a part of the work, from the fraction `begin` of the whole to `end`."""
+    return lambda fraction, doing: progress(begin + (end - begin) * fraction, doing)

@@ -11,9 +11,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from facemorph.core.arrays import Float32
+from facemorph.core.correctives import Corrective
 from facemorph.core.mesh import Mesh
+from facemorph.core.rig import Rig, Shape
 from facemorph.errors import FaceFolderError, UnknownNameError
-from facemorph.io import check_folder, load_rig, write_obj
+from facemorph.io import check_folder, load_rig, write_face, write_obj
 from facemorph.io.check_axes import _ways, turn_between
 from facemorph.io.report import Report
 from facemorph.resources import builtin_faces
@@ -366,3 +369,24 @@ def test_the_hint_names_the_folder_itself(tmp_path: Path, grid: Mesh) -> None:
     shuffled = replace(grid, positions=positions, corner_vertices=new[grid.corner_vertices].astype(np.int32))
     report = report_on(folder, grid, shuffled=shuffled)
     assert f"facemorph check '{folder}' --repair OUT" in messages(report, "order")[0]
+
+
+def test_a_corrective_is_judged_on_the_shapes_that_switch_it_on(tmp_path: Path) -> None:
+    across, up = np.meshgrid(np.arange(9.0), np.arange(9.0), indexing="ij")
+    points = np.stack([across, up, np.zeros_like(across)], axis=-1).reshape(-1, 3).astype(np.float32)
+    corner = (np.arange(8)[:, None] * 9 + np.arange(8)).ravel()
+    quads = np.stack([corner, corner + 9, corner + 10, corner + 1], axis=1).astype(np.int32)
+    inner = np.zeros((9, 9, 1), np.float32)
+    inner[3:6, 4] = 1.0
+    far = (inner * np.array([0.0, 2.6, 0.0], np.float32)).reshape(-1, 3)
+    # It goes back what its driver went too far, and by itself it would fold the other way.
+    shapes = (Shape("move", "Move"), Shape("mend", "Mend", "corrective"))
+    rules = (Corrective("mend", ("move",)),)
+
+    def told(mend: Float32, name: str) -> list[str]:
+        rig = Rig(Mesh.from_polygons(points, quads), shapes, np.stack([far, mend]), correctives=rules)
+        findings = check_folder(write_face(rig, tmp_path / name)).findings
+        return [finding.message for finding in findings if "mend" in finding.message]
+
+    assert told(-far * np.float32(0.98), "mended") == []
+    assert any("turned over" in message for message in told(far, "worse"))

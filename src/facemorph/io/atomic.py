@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from facemorph.errors import OutputError
@@ -63,6 +64,70 @@ def folders_for(goal: Path, shown: Path) -> Iterator[None]:
         yield
     except BaseException:
         _remove_empty(missing)
+        raise
+
+
+@contextlib.contextmanager
+def new_folder(out: Path, wanted: Callable[[], bool] = lambda: True) -> Iterator[Path]:
+    """A folder to fill that becomes `out` when all is well and it is `wanted`; else it goes.
+
+    `out` must be new or empty; an empty one stays the folder it is (someone may stand in it, or it may be
+    a disk of its own) and gets what is in the new one. Raises `OutputError`.
+    """
+    check_new(out)
+    goal = Path(os.path.realpath(out))
+    try:
+        with folders_for(goal, out):
+            beside = goal if goal.is_dir() else goal.parent
+            stage = Path(tempfile.mkdtemp(prefix=".facemorph-", dir=beside))
+            try:
+                yield stage
+                if wanted():
+                    _put(stage, goal, out)
+            finally:
+                shutil.rmtree(stage, ignore_errors=True)
+    except OSError as error:
+        raise OutputError(f"{out} could not be written: {reason(error)}.") from error
+
+
+def check_new(out: Path) -> None:
+    """Raises `OutputError` where no folder `out` can be made: it is there and not empty, or none may be."""
+    try:
+        goal = Path(os.path.realpath(out))
+        if goal.exists() and (not goal.is_dir() or any(goal.iterdir())):
+            problem = "is not empty" if goal.is_dir() else "is a file"
+            raise OutputError(f"{out} {problem}, and nothing is overwritten; name a new folder.")
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{out} could not be written: {reason(error)}.") from error
+    check_place(goal if goal.exists() else goal.parent, out)
+
+
+def check_place(folder: Path, shown: Path) -> None:
+    """Raises `OutputError`, which names `shown`, where nothing can be written into `folder`, new or not."""
+    place = next((path for path in (folder, *folder.parents) if os.path.lexists(path)), None)
+    if place is None or not place.is_dir():
+        raise OutputError(f"{shown} could not be written: {place or folder} is no folder.")
+    if not os.access(place, os.W_OK | os.X_OK):
+        raise OutputError(f"{shown} could not be written: nothing may be put into {place}.")
+
+
+def _put(stage: Path, goal: Path, shown: Path) -> None:
+    """Make `stage` the folder `goal`, or what is in it the contents of an empty one; all of it or nothing."""
+    if not goal.exists():
+        stage.chmod(usual_mode(goal, 0o777))
+        stage.rename(goal)
+        return
+    if any(path != stage for path in goal.iterdir()):
+        raise OutputError(f"{shown} is not empty any more, and nothing is overwritten; name a new folder.")
+    moved: list[Path] = []
+    try:
+        for path in sorted(stage.iterdir()):
+            moved.append(path)
+            path.rename(goal / path.name)
+    except BaseException:
+        for path in moved:
+            with contextlib.suppress(OSError):
+                (goal / path.name).rename(path)
         raise
 
 

@@ -13,6 +13,7 @@ from facemorph.errors import OutputError
 from facemorph.io.atomic import replacing
 from facemorph.io.limits import TEXTURE_BYTES
 from facemorph.io.names import written_name
+from facemorph.io.read import is_mesh
 
 _MOST_TRIES = 1_000
 
@@ -52,6 +53,8 @@ class Companions:
         names: dict[Path, str] = {}
         for texture in found:
             with suppress(OSError):
+                if is_mesh(texture):
+                    continue  # No picture; beside the face it would be taken for a shape.
                 if texture.is_file() and texture.stat().st_size <= TEXTURE_BYTES:
                     with texture.open("rb"):
                         names[texture] = self._placed(texture.name, texture).name

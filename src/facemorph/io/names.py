@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from facemorph.io.limits import NAME_BYTES
 
 _DIGITS = re.compile(r"(\d+)")
+_STEM_BYTES = 200
+_DEVICE = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)\s*(\.|$)", re.IGNORECASE)
 
 
 def written_name(name: str) -> str:
@@ -16,6 +18,16 @@ def written_name(name: str) -> str:
     plain = "".join("_" if unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") else c for c in name)
     plain = plain.encode("utf-8")[:NAME_BYTES].decode("utf-8", "ignore").strip()
     return re.sub(r"\\(?=\s*$)", "_", plain) or "unnamed"
+
+
+def file_stem(name: str) -> str:
+    """A shape's name as a file's: letters, digits, blanks, `-`, `_`, dots inside; it stays in its folder.
+
+    Short enough for every file system, and none of the names that mean devices on Windows.
+    """
+    plain = "".join(c if c.isalnum() or c in " -_." else "_" for c in name[:80])
+    plain = plain.encode("utf-8")[:_STEM_BYTES].decode("utf-8", "ignore").strip(" .")
+    return f"_{plain}" if _DEVICE.match(plain) else plain or "shape"
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str], ...]:

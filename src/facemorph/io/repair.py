@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,11 +12,11 @@ from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.core.reorder import reorder
-from facemorph.errors import FacemorphError, MeshFileError, OutputError
-from facemorph.io.atomic import folders_for, usual_mode
+from facemorph.errors import FacemorphError, MeshFileError
+from facemorph.io.atomic import new_folder
 from facemorph.io.face_toml import FACE_TOML
 from facemorph.io.foreign import named_files
-from facemorph.io.limits import read_bytes, reason
+from facemorph.io.limits import read_bytes
 from facemorph.io.load import FaceFiles, face_files, load_rig, place_of
 from facemorph.io.mtl import library_files
 from facemorph.io.names import listed
@@ -70,7 +68,7 @@ def repair_folder(source: Path | str, out: Path | str, *, progress: Progress = s
     folder, out = place_of(source), Path(out)
     files = face_files(folder)
     repair = Repair(folder, out)
-    with _staged(out, repair) as stage:
+    with new_folder(out, lambda: repair.needed) as stage:
         _Copying(folder, files, stage, repair).run(progress)
     if repair.needed:
         try:
@@ -78,28 +76,6 @@ def repair_folder(source: Path | str, out: Path | str, *, progress: Progress = s
         except FacemorphError as error:
             repair.refused = str(error)
     return repair
-
-
-@contextmanager
-def _staged(out: Path, repair: Repair) -> Iterator[Path]:
-    """A folder to fill that becomes `out` when all is well and something was repaired; else it goes."""
-    goal = Path(os.path.realpath(out))
-    try:
-        if goal.exists() and (not goal.is_dir() or any(goal.iterdir())):
-            raise OutputError(f"{out} is not empty, and nothing is overwritten; name a new folder.")
-        with folders_for(goal, out):
-            stage = Path(tempfile.mkdtemp(prefix=".facemorph-", dir=goal.parent))
-            try:
-                yield stage
-                if repair.needed:
-                    stage.chmod(usual_mode(goal, 0o777))
-                    with suppress(FileNotFoundError):
-                        goal.rmdir()
-                    stage.rename(goal)
-            finally:
-                shutil.rmtree(stage, ignore_errors=True)
-    except OSError as error:
-        raise OutputError(f"{out} could not be written: {reason(error)}.") from error
 
 
 class _Copying:

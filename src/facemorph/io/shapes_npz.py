@@ -23,6 +23,7 @@ from facemorph.io.face_set import check_size
 from facemorph.io.limits import SHAPES
 from facemorph.io.npz import Arrays, NpzError, read_npz, table, texts, whole
 
+FORMAT = 1
 _REGIONS = 1_024
 _NEEDED = ("format", "vertices", "names", "labels", "sets", "starts", "index", "delta", "scale")
 _OPTIONAL = ("region_names", "region_weights")
@@ -46,8 +47,8 @@ def read_shapes(path: Path, vertex_count: int, after: Float32 | None = None) -> 
     try:
         arrays = read_npz(path, _NEEDED, _OPTIONAL)
         version, vertices = whole(arrays, "format"), whole(arrays, "vertices")
-        if version != 1:
-            raise NpzError(f"is of format {version}; this version of facemorph reads 1")
+        if version != FORMAT:
+            raise NpzError(f"is of format {version}; this version of facemorph reads {FORMAT}")
         if vertices != vertex_count:
             raise NpzError(f"is made for {vertices:,} vertices; the neutral has {vertex_count:,}")
         shapes = _shapes(arrays)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import math
+import numbers
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -15,7 +17,7 @@ def toml_text(values: Mapping[str, Any]) -> str:
         if isinstance(tables, list):
             for table in tables:
                 if isinstance(table, dict):
-                    lines += ["", f"[[{_text(key)}]]", *_pairs(table)]
+                    lines += ["", f"[[{_key(key)}]]", *_pairs(table)]
     return "\n".join(lines) + "\n"
 
 
@@ -23,7 +25,7 @@ def _pairs(values: Mapping[str, Any]) -> Iterator[str]:
     for key, value in values.items():
         text = _value(value)
         if text is not None:
-            yield f"{_text(key)} = {text}"
+            yield f"{_key(key)} = {text}"
 
 
 def _value(value: Any) -> str | None:
@@ -32,8 +34,11 @@ def _value(value: Any) -> str | None:
         return _text(value)
     if isinstance(value, bool):
         return str(value).lower()
-    if isinstance(value, int) or (isinstance(value, float) and math.isfinite(value)):
-        return repr(value)
+    if isinstance(value, numbers.Integral):
+        return repr(int(value))
+    # Those of arrays are told with the digits that they have.
+    if isinstance(value, numbers.Real) and math.isfinite(value):
+        return repr(float(str(value)))
     if isinstance(value, dict):
         return f"{{ {', '.join(_pairs(value))} }}"
     if isinstance(value, list) and not any(isinstance(part, dict) for part in value):
@@ -42,6 +47,14 @@ def _value(value: Any) -> str | None:
     return None
 
 
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _text(key)
+
+
 def _text(text: str) -> str:
-    """A quoted text: TOML's basic strings are JSON's, but for DEL, which must be escaped."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+    """A quoted text: TOML's basic strings are JSON's, but for DEL, which must be escaped.
+
+    What is no letter (half a pair of UTF-16, as in file names of another encoding) becomes a "?".
+    """
+    plain = text.encode("utf-8", "replace").decode("utf-8")
+    return json.dumps(plain, ensure_ascii=False).replace("\x7f", "\\u007f")

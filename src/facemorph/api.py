@@ -160,6 +160,7 @@ def rebuild(
 def save_expressions(rig: Rig, folder: str | Path, *, size: tuple[int, int] = (800, 800)) -> list[Path]:
     """A picture of neutral and of each expression, and a film strip to the first one; returns their paths."""
     from facemorph.gl import Offscreen
+    from facemorph.io.names import file_stem
 
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -173,12 +174,6 @@ def save_expressions(rig: Rig, folder: str | Path, *, size: tuple[int, int] = (8
             strip = film_strip(screen, rig, names[0])
             paths.append(save_picture(_free(folder / f"neutral-to-{file_stem(names[0])}.png", paths), strip))
     return paths
-
-
-def file_stem(name: str) -> str:
-    """A shape's name as a file's: letters, digits, blanks, `-`, `_`, dots inside; it stays in its folder."""
-    plain = "".join(c if c.isalnum() or c in " -_." else "_" for c in name[:80]).strip(" .")
-    return plain or "shape"
 
 
 def _free(path: Path, taken: list[Path]) -> Path:
@@ -210,6 +205,7 @@ def facts(rig: Rig) -> dict[str, object]:
         "size": [round(float(side), 6) for side in high - low],
         "unit": rig.info.unit,
         "landmarks": len(rig.info.landmarks),
+        "landmark_names": [landmark.name for landmark in rig.info.landmarks],
         "regions": list(rig.regions.names) if rig.regions else [],
         "credit": rig.info.credit,
         "licence": rig.info.licence,

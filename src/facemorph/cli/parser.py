@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from facemorph import __version__
-from facemorph.cli import verbs
+from facemorph.cli import fit_parser, verbs
 from facemorph.core.camera import DIRECTIONS
 from facemorph.core.morph import CURVES
 from facemorph.core.picture import LIGHT_RIGS, LUMINANCE, SHADINGS
@@ -19,7 +19,7 @@ from facemorph.resources import builtin_faces
 
 FACE_HELP = "a built-in face (ada), a folder, or mesh files of which the first is the neutral"
 SIGNED_OPTIONS = ("--emotion", "--camera", "--t", "--s", "--c")
-VERBS = ("view", "faces", "info", "check", "render", "export", "rbf", "doctor")
+VERBS = ("view", "faces", "info", "check", "render", "export", "rbf", "fit", "transfer", "register", "doctor")
 
 
 class Parser(argparse.ArgumentParser):
@@ -71,11 +71,14 @@ def _parser() -> Parser:
     _render(adders.add_parser("render", help="draw a picture without a window"))
     _export(adders.add_parser("export", help="write a morphed face as a mesh"))
     _rbf(adders.add_parser("rbf", help="rebuild an expression from control points, and say how well"))
+    fit_parser.add_verbs(adders.add_parser, _verb)
     _doctor(adders.add_parser("doctor", help="say what works on this machine and what is missing"))
     return parser
 
 
-def _verb(parser: Parser, function: Callable[[argparse.Namespace], int], description: str) -> None:
+def _verb(
+    parser: argparse.ArgumentParser, function: Callable[[argparse.Namespace], int], description: str
+) -> None:
     parser.set_defaults(verb=function)
     parser.description = description
 

@@ -41,14 +41,14 @@ def pose_between(
     return Pose(state_of(source), state_of(target), t, checked_curve(options.curve), weights)
 
 
-def weights_from(words: Sequence[str]) -> dict[str, float]:
-    """Weights from NAME=VALUE words; a name given twice counts with its last value."""
+def weights_from(words: Sequence[str], option: str = "--set") -> dict[str, float]:
+    """Weights from NAME=VALUE words of an option; a name given twice counts with its last value."""
     weights: dict[str, float] = {}
     for word in words:
         name, equals, value = word.rpartition("=")
         if not equals or not name:
-            raise OptionError(f"--set takes NAME=VALUE, as jawOpen=0.5; not {word!r}.")
-        weights[name] = parsed_weight(value, f"--set {name}")
+            raise OptionError(f"{option} takes NAME=VALUE, as jawOpen=0.5; not {word!r}.")
+        weights[name] = parsed_weight(value, f"{option} {name}")
     return weights
 
 

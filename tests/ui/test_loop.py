@@ -61,7 +61,7 @@ def drive(app, screen):
         yield lambda: None
     steps.append(app.messages.shown[0].text)
     yield from click(27, 14)
-    yield from click(30, 213)
+    yield from click(30, 246)
     yield from (lambda: None for _ in range(50))
 
 loop = program._loop
@@ -327,7 +327,7 @@ def test_on_a_real_screen_a_face_is_morphed_and_left(
         drag((372, 775), (640, 775))
         drag((450, 400), (530, 400))
         click(27, 14)
-        click(30, 213)
+        click(30, 246)
         program.wait(120)
     finally:
         program.kill()

@@ -79,6 +79,7 @@ class Renderer:
         self._clock = None if self.graphics.software else DrawClock(ctx)
         self._rig: Rig | None = None
         self._forms: dict[int, Form] = {}
+        self._ahead: Form | None = None  # of the face that comes next
         self._stages: dict[int, Stage] = {}
         self._stage: Stage | None = None  # the one drawn last
         self._blend: Blend | None = None
@@ -93,7 +94,8 @@ class Renderer:
         """
         blend = Blend(rig.neutral.positions, rig.deltas)
         forms = {level: form for level, form in self._forms.items() if form.of_file is rig.neutral}
-        forms[0] = forms.get(0) or Form.of(rig.neutral)
+        ahead, self._ahead = self._ahead, None
+        forms[0] = forms.get(0) or (ahead if ahead and ahead.of_file is rig.neutral else Form.of(rig.neutral))
         stage = self._new_stage(rig, forms[0], blend)
         self._unload()
         self._rig, self._blend, self._forms = rig, blend, forms
@@ -104,10 +106,13 @@ class Renderer:
     def take(self, form: Form) -> None:
         """Keep a form of the loaded face's mesh, made in another thread, for when its level is drawn.
 
-        One of another mesh is left alone. The first frame at a level without makes the form itself, which
+        One of level 0 is kept for the next face that is loaded, if it is that one's. Else one of another mesh
+        is left alone. The first frame at a level without makes the form itself, which
         takes from tenths of a second to seconds.
         """
-        if self._rig is not None and form.of_file is self._rig.neutral and form.level:
+        if not form.level:
+            self._ahead = form
+        elif self._rig is not None and form.of_file is self._rig.neutral:
             self._forms = {0: self._forms[0], form.level: form}
 
     @property

@@ -54,10 +54,10 @@ def load(paths: tuple[str, ...], progress: Progress, *, builtin: bool) -> Rig:
 
 def export_mesh(app: App, path: Path) -> None:
     """Write the shown face as an OBJ, in the neutral's order, with the morphed surface's normals."""
-    rig = app.rig
-    if rig is None:
+    face = app.shown_face
+    if face is None:
         return
-    scene = app.scene()
+    rig, scene = face.rig, app.scene()
     path = suffixed(path, ".obj")
 
     def work(progress: Progress) -> Path:

@@ -17,6 +17,7 @@ from facemorph.ui.theme import FONT_PIXELS
 
 PLAY, PAUSE, LOOP, SEARCH = "\uf04b", "\uf04c", "\uf363", "\uf002"
 RECORD, STOP = "\uf111", "\uf04d"
+BACK, ON = "\uf053", "\uf054"
 CLOSE, COPY, PASTE = "\uf00d", "\uf0c5", "\uf0ea"
 FOLDER, FILE, UP = "\uf07b", "\uf15b", "\uf062"
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from facemorph.core.pose import Pose
 from facemorph.deform.controls import Controls
 from facemorph.deform.regions import RegionSet
+from facemorph.ui.fit_plan import FitPlan
 from facemorph.ui.words import change_words
 
 if TYPE_CHECKING:
@@ -34,6 +35,7 @@ class Snapshot:
     shapes_on: bool
     controls: Controls = field(default_factory=Controls)
     painted: RegionSet | None = None
+    fit: FitPlan = field(default_factory=FitPlan)
 
     @property
     def people(self) -> set[str]:

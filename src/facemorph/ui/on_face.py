@@ -10,7 +10,7 @@ from facemorph.core.picture import Shading
 from facemorph.core.scene import Scene
 
 if TYPE_CHECKING:
-    from facemorph.ui.state import App
+    from facemorph.ui.state import App, Face
 
 
 class Tool(Protocol):
@@ -51,11 +51,15 @@ class OnlyPaints:
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """A second view of the face, right of the first: what it shows, and what is written over each."""
+    """A second view, right of the first: what it shows, and what is written over each.
+
+    face   is seen on the right; None for the one on the left
+    """
 
     right: Scene
     words: tuple[str, str]
     heat: bool
+    face: Face | None = None
 
 
 @dataclass(eq=False)
@@ -63,20 +67,24 @@ class OnFace:
     """What a page wants of the face while it is on show.
 
     tool     takes the mouse on the face
+    stage    is shown in place of the open face, from a camera of its own
     scene    is drawn in place of what the methods make; `words` then says what it is, `legend` what a
              heat map of it measures
     glow     (V,) float32 0..1, where the face lights up
     split    a second view beside the first
     shading  is used in place of the chosen one
+    tells    kinds of work whose progress the page itself shows
     """
 
     tool: Tool | None = None
+    stage: Face | None = None
     scene: Scene | None = None
     words: tuple[str, ...] = ()
     legend: str = ""
     glow: Float32 | None = None
     split: Split | None = None
     shading: Shading | None = None
+    tells: frozenset[str] = frozenset()
 
 
 def clear(app: App, layout: object) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from facemorph.ui.emotion_page import EmotionPage
+from facemorph.ui.fit_page import FitPage
 from facemorph.ui.people_page import PeoplePage
 
 
@@ -14,6 +15,7 @@ class Pages:
 
     emotion   what the Emotion page keeps
     people    what the People page keeps
+    fit       what the Fit page keeps
     """
 
     set: str = "FACS"
@@ -21,3 +23,4 @@ class Pages:
     balances: dict[int, float] = field(default_factory=dict)
     emotion: EmotionPage = field(default_factory=EmotionPage)
     people: PeoplePage = field(default_factory=PeoplePage)
+    fit: FitPage = field(default_factory=FitPage)

@@ -47,8 +47,10 @@ def plot(
     legend: bool = True,
     logarithmic: bool = False,
     at: float | None = None,
+    steps: int = 0,
 ) -> None:
-    """Draw lines over one pair of axes, as wide as there is room. `at` marks an x with an upright line.
+    """Draw lines over one pair of axes, as wide as there is room. `at` marks an x with an upright line;
+    with `steps` x counts from 1 to so many.
 
     The legend stands in the plot, over room that no line enters.
     """
@@ -62,7 +64,11 @@ def plot(
     )
     if implot.begin_plot(f"##{name}", ImVec2(-1, height), flags):
         fit = implot.AxisFlags_.auto_fit | implot.AxisFlags_.no_highlight | implot.AxisFlags_.no_menus
-        implot.setup_axes(x_title, y_title, fit, fit & ~implot.AxisFlags_.auto_fit)
+        still = fit & ~implot.AxisFlags_.auto_fit
+        implot.setup_axes(x_title, y_title, still if steps else fit, still)
+        if steps:
+            implot.setup_axis_limits(implot.ImAxis_.x1, 0.5, steps + 0.5, imgui.Cond_.always)
+            implot.setup_axis_ticks(implot.ImAxis_.x1, 1.0, float(steps), steps)
         if logarithmic:
             implot.setup_axis_scale(implot.ImAxis_.y1, implot.Scale_.log10)
         line_height = imgui.get_text_line_height()

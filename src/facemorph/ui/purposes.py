@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal
 
-from facemorph.ui import emotion_paths, files, handles, people, regions
+from facemorph.ui import emotion_paths, files, fit_files, fit_run, fit_wrap, handles, people, regions
 from facemorph.ui.state import App
 
 Take = Callable[[App, list[Path]], None]
@@ -27,6 +27,7 @@ class Purpose:
     kind      what the desktop's dialog calls such files
     suffixes  the first is added to a new file's name
     take      is given the paths chosen; one but for "files"
+    called    what a new file is called at first; None for the open face's name
     """
 
     title: str
@@ -35,6 +36,7 @@ class Purpose:
     kind: str
     suffixes: tuple[str, ...]
     take: Take
+    called: Callable[[App], str] | None = None
 
     @property
     def saving(self) -> bool:
@@ -113,6 +115,30 @@ PURPOSES: Mapping[str, Purpose] = MappingProxyType(
         "save path": Purpose(
             "Save path", f"Where to save the path (JSON). {_TAB}",
             "save", "Paths", (".json",), _first(emotion_paths.save_path),
+        ),
+        "fit template": Purpose(
+            "Template", f"The folder of a face with shapes. {_TAB}",
+            "folder", "Meshes", files.MESH_SUFFIXES, fit_files.ask_template,
+        ),
+        "fit neutral": Purpose(
+            "The person's neutral", f"A mesh of the person without expression. {_TAB}",
+            "file", "Meshes", files.MESH_SUFFIXES, _first(fit_files.read_neutral),
+        ),
+        "fit examples": Purpose(
+            "Examples", f"Meshes of the person's expressions, or a folder of them. {_TAB}",
+            "files", "Meshes", files.MESH_SUFFIXES, fit_files.take_meshes,
+        ),
+        "open pairs": Purpose(
+            "Open points", f"Points of the template and the same on the scan (CSV). {_TAB}",
+            "file", "Points", (".csv",), _first(fit_wrap.load_pairs),
+        ),
+        "save pairs": Purpose(
+            "Save points", f"Where to save the points (CSV). {_TAB}",
+            "save", "Points", (".csv",), _first(fit_wrap.save_pairs),
+        ),
+        "save person": Purpose(
+            "Save as a face folder", f"A new folder for the person; nothing is overwritten. {_TAB}",
+            "save", "Face folder", ("",), _first(fit_run.save), fit_run.file_name,
         ),
     }
 )  # fmt: skip

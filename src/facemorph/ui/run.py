@@ -12,7 +12,7 @@ from facemorph.core.progress import Progress
 from facemorph.core.rig import Rig
 from facemorph.errors import FacemorphError
 from facemorph.resources import builtin_faces
-from facemorph.ui import dialogs, files, window
+from facemorph.ui import dialogs, files, fit_files, window
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.session import Session
 from facemorph.ui.settings import Settings, config_folder, load_settings, save_settings
@@ -125,7 +125,8 @@ def open_dropped(app: App, dropped: list[str]) -> None:
     if dropped:
         paths = [str(Path(path)) for path in dropped]
         dropped.clear()
-        files.open_source(app, paths)
+        if not fit_files.take_dropped(app, paths):
+            files.open_source(app, paths)
 
 
 def _paths(source: Source, builtins: tuple[str, ...]) -> tuple[tuple[str, ...], bool]:

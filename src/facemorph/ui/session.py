@@ -7,6 +7,7 @@ an ImGui context, and nothing else.
 from __future__ import annotations
 
 import time
+import weakref
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -23,11 +24,13 @@ from facemorph.ui.draw import draw_ui
 from facemorph.ui.emotion_pictures import pole_pictures
 from facemorph.ui.exposing import Exposing
 from facemorph.ui.hotkeys import nudging
+from facemorph.ui.on_face import OnFace, Split
 from facemorph.ui.panels.messages import sliding
 from facemorph.ui.people_pictures import corner_pictures
 from facemorph.ui.plots import release_plots
 from facemorph.ui.smoothing import Smoothing
 from facemorph.ui.split_view import DrawsFaces, Quality, SplitView, partner_key, show, side_by_side
+from facemorph.ui.stage_cameras import StageCameras
 from facemorph.ui.state import App, Face
 from facemorph.ui.thumbnails import Thumbnails
 
@@ -51,10 +54,13 @@ class Session:
         self.poles = pole_pictures()
         self.corners = corner_pictures()
         self._smoothing = Smoothing()
+        self._cameras = StageCameras()
         self._exposing = Exposing()
         self._clock = clock
         self._last_secs = clock()
         self._loaded: Face | None = None
+        # What pages show and could not be drawn.
+        self._refused: weakref.WeakSet[Face] = weakref.WeakSet()
         self._drawn: tuple[object, ...] = ()
         self._scene: Scene | None = None  # as drawn last; holding it keeps its arrays' identities
         self._framed: tuple[Camera, str, float] | None = None  # as framed last, and for which view
@@ -73,6 +79,7 @@ class Session:
         imgui.new_frame()
         draw_ui(app)
         emotion_paths.take_sample(app, self._last_secs)
+        self._cameras.settle(app)
         self._fulfil(app)
         self._draw_face(app)
         busy = imgui.is_any_item_active() or nudging() or app.playback.playing or app.drag == "tool"
@@ -82,7 +89,7 @@ class Session:
         """Seconds until something moves by itself: 0 at once, None not before the user does something."""
         app = self.app
         moving = app.playback.playing or app.turntable or sliding(app) or app.pages.emotion.moves_by_itself
-        waiting = app.arriving or app.chooser.fresh or (app.face and (app.framing or app.picture_path))
+        waiting = app.arriving or app.chooser.fresh or (app.shown_face and (app.framing or app.picture_path))
         thumbs = (self.thumbnails is not None and self.thumbnails.busy) or self.poles.busy(app)
         thumbs = thumbs or self.corners.busy(app)
         if moving or waiting or thumbs or self._hurried:
@@ -159,6 +166,8 @@ class Session:
 
     def _load(self, face: Face) -> None:
         self._drawn = ()
+        if face.form is not None:
+            self.renderer.take(face.form)
         self.renderer.load(face.rig)
         self._loaded = face
         self._exposing.forget()
@@ -168,10 +177,10 @@ class Session:
 
     def _fulfil(self, app: App) -> None:
         """The wishes that need to know how large the face is shown."""
-        if app.face is None:
+        if app.shown_face is None:
             app.pick_at = app.picture_path = None
             return
-        self._frame(app, app.face.rig)
+        self._frame(app, app.shown_face.rig)
         if app.pick_at is not None:
             (x, y), app.pick_at = app.pick_at, None
             hit = self.renderer.pick(x, y) if self._drawn else None
@@ -191,10 +200,9 @@ class Session:
 
     def _draw_face(self, app: App) -> None:
         self._hurried = False
-        if app.face is None:
+        face = self._ready(app)
+        if face is None:
             return
-        if app.face is not self._loaded:
-            self._load(app.face)
         pictured = self.poles.step(app, self.renderer) or self.corners.step(app, self.renderer)
         if pictured:
             self._drawn = ()
@@ -206,7 +214,7 @@ class Session:
         quality: Quality = "fast" if moving and app.picture_path is None else "full"
         scene = app.scene()
         wanted = (
-            app.face,
+            face,
             scene.pose,
             id(scene.offsets),
             id(scene.glow),
@@ -226,8 +234,40 @@ class Session:
         self._legend(app)
         show(self.renderer, view)
         if app.on_face.split is not None:
-            self._hurried |= self.split.draw(app, app.on_face.split, quality)
+            self._draw_right(app, app.on_face.split, quality)
         self._save(app)
+
+    def _ready(self, app: App) -> Face | None:
+        """The face to draw, loaded. What a page shows and cannot be drawn gives way to the open face."""
+        face = app.shown_face
+        if face in self._refused:
+            app.on_face = OnFace()
+            face = app.face
+        if face is None or face is self._loaded:
+            return face
+        try:
+            self._load(face)
+        except FacemorphError as error:
+            if face is app.face:
+                raise
+            self._refuse(app, face, error)
+            return self._ready(app)
+        return face
+
+    def _refuse(self, app: App, face: Face, error: FacemorphError) -> None:
+        """Never try again to draw what a page shows; say why."""
+        actions.tell_error(app, f"{face.title} cannot be drawn", error)
+        self._refused.add(face)
+
+    def _draw_right(self, app: App, split: Split, quality: Quality) -> None:
+        if split.face in self._refused:
+            return
+        try:
+            self._hurried |= self.split.draw(app, split, quality)
+        except FacemorphError as error:
+            if split.face is None:
+                raise
+            self._refuse(app, split.face, error)
 
     def _exposed(self, app: App, scene: Scene, size: tuple[int, int], quality: Quality) -> Look:
         moving = quality == "fast"

@@ -81,7 +81,7 @@ class Smoothing:
 
         draw_secs   what the card lately took for a frame, or None
         """
-        mesh = app.face.rig.neutral if app.face else None
+        mesh = app.shown_face.rig.neutral if app.shown_face else None
         if app.form is not None and app.form.of_file is not mesh:
             app.form = None
         shown = app.form.level if app.form else 0

@@ -39,7 +39,7 @@ class DrawsFaces(Protocol):
         """Take a rig."""
 
     def take(self, form: Form) -> None:
-        """Take a refined surface of the rig, for when its level is drawn."""
+        """Take a refined surface of the rig, for when its level is drawn; or the next rig's own."""
 
     @property
     def draw_secs(self) -> float | None:
@@ -91,13 +91,18 @@ class SplitView:
 
     def draw(self, app: App, split: Split, quality: Quality) -> bool:
         """Draw the second view; True where its legend is new and the interface must be built once more."""
-        view = app.views()[1]
-        renderer = self._ready(app)
+        view, face = app.views()[1], split.face or app.shown_face
+        if face is None:
+            return False
+        renderer = self._ready(app, face)
         look = replace(app.look, shading="heat") if split.heat else app.shown_look
+        if app.shown_face is None or face.rig.neutral is not app.shown_face.rig.neutral:
+            # Nobody refines the other face's surface beside the window.
+            look = replace(look, subdivision=0)
         scene = split.right
         exactly = app.picture_path is not None and look.luminance is not None
         wanted = (
-            app.face, scene.pose, id(scene.offsets), id(scene.reference), partner_key(scene), app.camera,
+            face, scene.pose, id(scene.offsets), id(scene.reference), partner_key(scene), app.camera,
             look, view.size, exactly,
         )  # fmt: skip
         if (*wanted, quality) != self._drawn and (*wanted, "full") != self._drawn:
@@ -112,12 +117,14 @@ class SplitView:
         app.second_legend = renderer.legend
         return new_legend
 
-    def _ready(self, app: App) -> DrawsFaces:
+    def _ready(self, app: App, face: Face) -> DrawsFaces:
         if self.renderer is None:
             self.renderer = self._new()
-        if app.face is not None and self._loaded is not app.face:
-            self.renderer.load(app.face.rig)
-            self._loaded, self._drawn = app.face, ()
+        if self._loaded is not face:
+            if face.form is not None:
+                self.renderer.take(face.form)
+            self.renderer.load(face.rig)
+            self._loaded, self._drawn = face, ()
             self._exposing.forget()
         if app.form is not None:
             self.renderer.take(app.form)

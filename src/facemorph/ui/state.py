@@ -21,6 +21,7 @@ from facemorph.deform.regions import RegionSet
 from facemorph.gl.describe import Graphics
 from facemorph.gl.form import Form
 from facemorph.gl.heat import Legend
+from facemorph.ui.fit_plan import FitPlan
 from facemorph.ui.history import History, Snapshot
 from facemorph.ui.jobs import Jobs
 from facemorph.ui.lab import Lab
@@ -39,11 +40,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A loaded rig and what it was loaded from: a built-in's name, a folder, or files."""
+    """A loaded rig and what it was loaded from: a built-in's name, a folder, or files.
+
+    form  its surface made ready for drawing beside the window, where that was done
+    """
 
     rig: Rig
     source: tuple[str, ...]
     builtin: bool = False
+    form: Form | None = None
 
     @property
     def title(self) -> str:
@@ -137,6 +142,7 @@ class App:
     controls: Controls = field(default_factory=Controls)  # what the methods beside the shapes are set to
     methods: Methods = field(default_factory=Methods)
     painted: RegionSet | None = None  # regions painted on the face, in place of the rig's own
+    fit: FitPlan = field(default_factory=FitPlan)  # what a person's shapes are to be made of
     on_face: OnFace = field(default_factory=OnFace)
     lab: Lab = field(default_factory=Lab)
     camera: Camera = field(default_factory=Camera)
@@ -174,6 +180,11 @@ class App:
     def rig(self) -> Rig | None:
         """The present face's rig."""
         return self.face.rig if self.face else None
+
+    @property
+    def shown_face(self) -> Face | None:
+        """What the viewport shows: what the page on show has put there, else the open face."""
+        return self.on_face.stage or self.face
 
     @property
     def expressions(self) -> tuple[Shape, ...]:
@@ -214,6 +225,8 @@ class App:
 
     def scene(self) -> Scene:
         """What is drawn, saved and exported: the shown pose with what all methods add."""
+        if self.on_face.stage is not None:
+            return self.on_face.scene or Scene(Pose())
         return self.on_face.scene or self.methods.scene(self)
 
     def shown_state(self) -> dict[str, float]:
@@ -226,14 +239,14 @@ class App:
 
     def snapshot(self) -> Snapshot:
         """What undo would bring back."""
-        return Snapshot(self.face, self.pose, self.shapes_on, self.controls, self.painted)
+        return Snapshot(self.face, self.pose, self.shapes_on, self.controls, self.painted, self.fit)
 
     def restore(self, snapshot: Snapshot) -> None:
         """Bring back a snapshot; another face is framed anew."""
         if not same_head(snapshot.face, self.face):
             self.framing = "front"
         self.face, self.pose, self.shapes_on = snapshot.face, snapshot.pose, snapshot.shapes_on
-        self.controls, self.painted = snapshot.controls, snapshot.painted
+        self.controls, self.painted, self.fit = snapshot.controls, snapshot.painted, snapshot.fit
         self.stop_playing()
 
     def show(self, face: Face, pose: Pose | None = None) -> None:

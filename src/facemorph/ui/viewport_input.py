@@ -21,7 +21,7 @@ def handle(app: App) -> None:
         _go_on(app, io)
         return
     mouse = io.mouse_pos
-    if io.want_capture_mouse or app.face is None or not app.viewport.contains(mouse.x, mouse.y):
+    if io.want_capture_mouse or app.shown_face is None or not app.viewport.contains(mouse.x, mouse.y):
         return
     if _taken(app, mouse.x, mouse.y):
         app.drag = "tool"

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from facemorph.core.pose import State
 from facemorph.core.rig import Rig, plain_label
 from facemorph.deform.controls import METHODS, PeopleControl
+from facemorph.ui.fit_plan import plan_words
 from facemorph.ui.methods import OWN
 
 if TYPE_CHECKING:
@@ -55,6 +56,8 @@ def change_words(before: Snapshot, after: Snapshot) -> str:
                 return "correctives on" if after.face.rig.corrected else "correctives off"
             return f"keep {after.face.rig.shapes[-1].label}"
         return f"open {after.face.title}" if after.face else "close the face"
+    if before.fit != after.fit:
+        return plan_words(before.fit, after.fit)
     if before.shapes_on != after.shapes_on:
         return "shapes on" if after.shapes_on else "shapes off"
     if before.painted is not after.painted:

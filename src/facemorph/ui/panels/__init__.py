@@ -35,7 +35,7 @@ def left_tabs() -> tuple[Tab, ...]:
 
 def right_tabs() -> tuple[Tab, ...]:
     """The pose, in layers: each page is one method and adds to the sum."""
-    from facemorph.ui.panels import compare, emotion, facs, handles, people, regions, shapes
+    from facemorph.ui.panels import compare, emotion, facs, fit, handles, people, regions, shapes
 
     return (
         Tab("Shapes", shapes.draw, shapes.moves_face, "Every shape of the face, added on top"),
@@ -45,6 +45,7 @@ def right_tabs() -> tuple[Tab, ...]:
         Tab("Handles", handles.draw, handles.moves_face, "Points on the face that are dragged: RBF (2.3)"),
         Tab("Regions", regions.draw, regions.moves_face, "Parts of the face, each on its own way (Parke)"),
         Tab("Compare", compare.draw, tip="Paths, speeds and pictures of several methods side by side"),
+        Tab("Fit", fit.draw, tip="Make another person's blendshapes from this face's and a few examples"),
     )
 
 

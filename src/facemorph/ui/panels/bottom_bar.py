@@ -32,7 +32,8 @@ def draw(app: App, layout: Layout) -> None:
     imgui.set_next_window_size((layout.width, layout.bottom))
     imgui.push_style_var(imgui.StyleVar_.window_padding, ImVec2(14 * unit(), 10 * unit()))
     imgui.begin("##bottom", None, _FLAGS)
-    imgui.begin_disabled(not app.expressions)
+    # Where a page shows another face, the slider would move what nobody sees.
+    imgui.begin_disabled(not app.expressions or app.on_face.stage is not None)
     _row(app)
     imgui.end_disabled()
     imgui.end()

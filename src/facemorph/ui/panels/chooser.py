@@ -51,7 +51,8 @@ def _start(app: App) -> Path | str:
     if not _purpose(app).saving:
         return f"{folder}{os.sep}"
     suffix = _purpose(app).suffixes[0]
-    title = app.face.title if app.face else ""
+    called = _purpose(app).called
+    title = called(app) if called else app.face.title if app.face else ""
     name = "".join(letter if letter.isalnum() or letter in " -_" else "_" for letter in title)
     return folder / f"{name.strip() or 'face'}{suffix}"
 
@@ -90,7 +91,8 @@ def _page(app: App) -> None:
     word = "Replace it" if again else word
     width = imgui.calc_text_size(word).x + 4 * imgui.get_style().frame_padding.x
     imgui.align_text_to_frame_padding()
-    note = f"{goal.name} is there already." if again else ""
+    taken = _is_for_folder(app) and goal.is_dir() and not state.path.endswith(os.sep)
+    note = f"{goal.name} is there already." if again or taken else ""
     imgui.text_unformatted(cut(note, imgui.get_content_region_avail().x - width - 12 * unit()))
     imgui.same_line(right_edge() - width)
     imgui.begin_disabled(not _usable(purpose, goal))
@@ -195,7 +197,15 @@ def _list(app: App, found: list[Entry]) -> None:
 def _nothing_found(app: App) -> str:
     if not folder_of(app.chooser.path).is_dir():
         return "No such folder."
-    return "A new file of this name." if _purpose(app).saving else "No file here begins like that."
+    if not _purpose(app).saving:
+        return "No file here begins like that."
+    return f"A new {'folder' if _is_for_folder(app) else 'file'} of this name."
+
+
+def _is_for_folder(app: App) -> bool:
+    """Whether a new folder is wanted."""
+    purpose = _purpose(app)
+    return purpose.saving and not purpose.suffixes[0]
 
 
 def _entry(app: App, entry: Entry, place: int) -> None:

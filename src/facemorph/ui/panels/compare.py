@@ -14,9 +14,10 @@ from facemorph.ui.on_screen import picked, projected, shown_places, surface_of
 from facemorph.ui.panels.rows import divider, quiet_words
 from facemorph.ui.panels.value_rows import choice_row, switch_row, unit_words
 from facemorph.ui.plots import Line, aligned_plots, plot
+from facemorph.ui.split_words import paint_split_words
 from facemorph.ui.state import App, Viewport
-from facemorph.ui.theme import faded, packed
-from facemorph.ui.widgets import colours, cut, icon_button, right_edge, row_label, tab_chips, tooltip, unit
+from facemorph.ui.theme import packed
+from facemorph.ui.widgets import icon_button, right_edge, row_label, tab_chips, tooltip, unit
 
 _SPLIT_TIP = (
     "Shows the face twice at the same t, by two methods: linear (2.5), cosine (2.1), RBF (2.13), or without "
@@ -174,10 +175,7 @@ class PickTool(OnlyPaints):
     def paint(self, app: App) -> None:
         """The chosen vertex, the line between the two views, and what each of them shows."""
         views = app.views()
-        if app.on_face.split is not None:
-            _line(app, views[1])
-            for words, side in zip(app.on_face.split.words, (-1.0, 1.0), strict=True):
-                _title(app, views[1], words, side)
+        paint_split_words(app)
         vertex = app.lab.compare.vertex
         if vertex is None or app.rig is None or vertex >= app.rig.neutral.vertex_count:
             return
@@ -192,23 +190,3 @@ def _mark(view: Viewport, place: Float64) -> None:
         return
     paint.add_circle_filled((x, y), 5 * scale, packed((0.05, 0.06, 0.07, 0.9)))
     paint.add_circle_filled((x, y), 3.5 * scale, packed((1.0, 0.82, 0.25, 1.0)))
-
-
-def _line(app: App, right: Viewport) -> None:
-    ink = packed(colours(app).line)
-    imgui.get_window_draw_list().add_line(
-        (right.x, right.y), (right.x, right.y + right.height), ink, 2 * unit()
-    )
-
-
-def _title(app: App, right: Viewport, words: str, side: float) -> None:
-    """What a view shows, beside the line between both: left of it where `side` is -1."""
-    c, pad = colours(app), 8 * unit()
-    words = cut(words, right.width * 0.6)
-    size = imgui.calc_text_size(words)
-    x = right.x + 3 * pad if side > 0 else right.x - 3 * pad - size.x
-    y = right.y + 16 * unit()
-    low, high = (x - 1.5 * pad, y - 0.6 * pad), (x + size.x + 1.5 * pad, y + size.y + 0.6 * pad)
-    paint = imgui.get_window_draw_list()
-    paint.add_rect_filled(low, high, packed(faded(c.panel, 0.86)), 6 * unit())
-    paint.add_text((x, y), packed(c.text), words)

@@ -36,6 +36,8 @@ def draw(app: App, layout: Layout) -> None:
         shift = (1.0 - arrived) ** 2 * 60 * scale
         y += _message(app, message, right - width + shift, y, width) + 8 * scale
     for job in app.jobs.shown():
+        if job.kind in app.on_face.tells:
+            continue
         y += _job(app, job, right - width, y, width) + 8 * scale
 
 

@@ -39,7 +39,7 @@ def draw(app: App, layout: Layout) -> None:
     """Everything over the face: what is only read first, then the buttons."""
     view = app.viewport
     _open("##over the face", view.x, view.y, (0.0, 0.0), inert=(view.width, view.height))
-    if app.face is None:
+    if app.shown_face is None:
         _centred(app, "Opening a face…" if app.jobs.of_kind("face") else NO_FACE)
     else:
         _caption(app)
@@ -49,24 +49,25 @@ def draw(app: App, layout: Layout) -> None:
             _legend(app, app.legend, app.views()[0])
         if app.on_face.split is not None and app.second_legend is not None:
             _legend(app, app.second_legend, app.views()[1], lift=2 * imgui.get_frame_height() + 14 * unit())
-        if not app.settings.hint_seen and app.expressions:
+        if not app.settings.hint_seen and app.expressions and app.on_face.stage is None:
             _hint(app)
     imgui.end()
-    if app.face is not None:
+    if app.shown_face is not None:
         _buttons(app)
 
 
 def _caption(app: App) -> None:
     """The face's name, and under it what is active, a line each, on a ground that keeps them readable."""
     view, c, scale = app.viewport, colours(app), unit()
-    assert app.face is not None
-    room = min(view.width - 4 * _MARGIN * scale, 300 * scale)
+    face = app.shown_face
+    assert face is not None
+    room = min(app.views()[0].width - 4 * _MARGIN * scale, 300 * scale)
     if room < 60 * scale:
         return
     x, y = view.x + _MARGIN * scale, view.y + 12 * scale
-    lines = [cut(line, room) for line in _active_lines(app, app.face.rig)]
+    lines = [cut(line, room) for line in _active_lines(app, face.rig)]
     imgui.push_font(None, _TITLE_PIXELS)
-    title = cut(app.face.title, room)
+    title = cut(face.title, room)
     title_size = imgui.calc_text_size(title)
     widest = max([title_size.x, *(line_width(line) for line in lines)])
     step = imgui.get_font_size() * FONT_PIXELS / _TITLE_PIXELS + 3 * scale
@@ -177,10 +178,11 @@ def _legend(app: App, legend: Legend, view: Viewport, lift: float = 0.0) -> None
     top = y - box
     paint.add_rect_filled((x, top), (x + width + 3 * pad, y), packed(faded(c.panel, 0.86)), 6 * scale)
     left, bar = x + 1.5 * pad, top + pad + line + 4 * scale
+    own = app.on_face.legend if legend.title == DIFFERENCE else ""
     paint.add_text(
         (left, top + pad),
         packed(c.text),
-        f"{app.on_face.legend or LEGEND_WORDS[legend.title]}, {legend.unit}",
+        f"{own or LEGEND_WORDS[legend.title]}, {legend.unit}",
     )
     _ramp(legend, left, bar, width, height)
     for at, text in legend.ticks:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import platform
 import sys
 
-from benchmarks import blending, frames, methods, reading, starting
+from benchmarks import blending, fit, frames, methods, reading, starting
 
 # Cold starts come first: a process inherits the peak memory of the one that starts it.
 GROUPS = {
@@ -14,6 +14,7 @@ GROUPS = {
     "blending": blending.run,
     "frames": frames.run,
     "methods": methods.run,
+    "fit": fit.run,
 }
 
 

@@ -23,6 +23,7 @@ sys.path.insert(0, str(ROOT))
 from tests.ui.harness import Offscreen as Window  # noqa: E402
 
 import facemorph  # noqa: E402
+from facemorph.api import export_positions  # noqa: E402
 from facemorph.core.facs import Sides  # noqa: E402
 from facemorph.core.morph import eased  # noqa: E402
 from facemorph.core.scene import Partner, Scene  # noqa: E402
@@ -31,8 +32,10 @@ from facemorph.deform.people import PeopleMix  # noqa: E402
 from facemorph.deform.regions import RegionControl  # noqa: E402
 from facemorph.gl import sheet  # noqa: E402
 from facemorph.resources import builtin_faces  # noqa: E402
-from facemorph.ui import emotion  # noqa: E402
+from facemorph.ui import emotion, fit_run  # noqa: E402
 from facemorph.ui import people as people_page  # noqa: E402
+from facemorph.ui.fit_page import NEUTRAL, RESULT, WEIGHTS  # noqa: E402
+from facemorph.ui.run import open_dropped  # noqa: E402
 from facemorph.ui.settings import Settings  # noqa: E402
 from facemorph.ui.state import Face  # noqa: E402
 
@@ -50,6 +53,7 @@ def main() -> None:
         os.environ["FACEMORPH_CONFIG_DIR"] = os.environ["FACEMORPH_CACHE_DIR"] = folder
         window(DOCS / "window.png")
         pages(DOCS / "pages.png")
+        fit(DOCS / "fit.png", Path(folder))
     rig = facemorph.load("mei")
     with facemorph.Offscreen() as screen:
         animation(screen, rig, DOCS / "morph.webp")
@@ -87,6 +91,35 @@ def pages(path: Path) -> None:
             screen.frames(40)
             panels.append(screen.pixels_now()[28:752, 904:])
     save(path, np.concatenate(panels, axis=1))
+
+
+def fit(path: Path, folder: Path) -> None:
+    """The page Fit with its result: Omar from Ada's shapes and three expressions that are not hers."""
+    person = facemorph.load("omar")
+    low, high = person.neutral.bounds
+    at = (person.neutral.positions - low) / (high - low)
+    # Omar's own way to move, smoothly other than Ada's: more on his left, less above.
+    way = (0.8 + 0.5 * at[:, 0] - 0.25 * at[:, 1]).astype(np.float32)[:, None]
+    folder = folder / "Robin"
+    folder.mkdir()
+    files = [folder / "neutral.obj"]
+    facemorph.export(person, {}, files[0])
+    for name, pose in {"shout": {"surprised": 0.8}, "frown": {"angry": 0.9}, "smile": {"happy": 0.9}}.items():
+        moved = person.neutral.positions + way * (person.positions(pose) - person.neutral.positions)
+        files.append(export_positions(person, moved, folder / f"{name}.obj"))
+    settings = Settings(hint_seen=True, right_page="Fit")
+    with Window(facemorph.load("ada"), (1280, 800), settings=settings) as screen:
+        app = screen.app
+        app.pages.fit.step = NEUTRAL
+        open_dropped(app, [str(file) for file in files])
+        screen.until(lambda: not app.jobs.running)
+        app.pages.fit.step = WEIGHTS
+        screen.until(lambda: fit_run.can_make(app))
+        fit_run.make(app)
+        screen.until(lambda: app.pages.fit.made is not None)
+        app.pages.fit.step, app.pages.fit.heat = RESULT, True
+        screen.frames(40)
+        save(path, screen.pixels_now())
 
 
 def _emotion(screen: Window) -> None:

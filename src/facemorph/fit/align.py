@@ -31,6 +31,11 @@ class Similarity:
         return Similarity(1.0 / self.scale, self.rotation.T, -back @ self.translation)
 
 
+def diagonal_of(points: Float64) -> float:
+    """The diagonal of the box around points (N, 3)."""
+    return float(np.linalg.norm(np.ptp(points, axis=0)))
+
+
 def similarity(source: Float64, target: Float64, *, scaled: bool = True) -> Similarity:
     """The similarity that takes points `source` (N, 3) nearest to `target` (N, 3), least squares.
 

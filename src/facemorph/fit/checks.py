@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Mesh
 from facemorph.core.rig import Rig
 from facemorph.errors import CorrespondenceError, FitError, UnknownNameError
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.gradients import edges_of, heights
 
 # Relative to the longest side: what float32 positions can tell from zero.
@@ -64,7 +65,7 @@ def check_triangles(points: Float64, triangles: Int32, name: str) -> None:
 
 def check_example(points: Float64, neutral: Float64, name: str) -> None:
     """Raises `FitError` where an example is the neutral over again, or of quite another size."""
-    size = float(np.linalg.norm(np.ptp(neutral, axis=0)))
+    size = diagonal_of(neutral)
     ratio = _spread(points) / max(_spread(neutral), 1e-300)
     if not 1.0 / _MOST_LARGER < ratio < _MOST_LARGER:
         words = f"{max(ratio, 1.0 / max(ratio, 1e-300)):.3g} times as {'large' if ratio > 1.0 else 'small'}"
@@ -73,6 +74,13 @@ def check_example(points: Float64, neutral: Float64, name: str) -> None:
         )
     if float(np.abs(points - neutral).max(initial=0.0)) <= _SAME * size:
         raise FitError(f"{name}: it is equal to the neutral, so nothing can be learnt from it. Leave it out.")
+
+
+def used_shapes(template: Rig, shapes: Iterable[str] | None) -> tuple[str, ...]:
+    """The shapes that may explain examples: those named, or all with a weight of their own."""
+    if shapes is None:
+        return tuple(shape.name for shape in template.controls)
+    return tuple(dict.fromkeys(template.shape(name).name for name in shapes))
 
 
 def _spread(points: Float64) -> float:

@@ -19,7 +19,15 @@ from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import FaceInfo, Rig
 from facemorph.errors import FitError
-from facemorph.fit.checks import MOST_EXAMPLES, AnySurface, Weights, check_example, points_of, weight_rows
+from facemorph.fit.checks import (
+    MOST_EXAMPLES,
+    AnySurface,
+    Weights,
+    check_example,
+    points_of,
+    used_shapes,
+    weight_rows,
+)
 from facemorph.fit.problem import FitProblem
 from facemorph.fit.result import Example, FitResult, Iteration
 from facemorph.fit.starting import GUESS
@@ -153,13 +161,6 @@ def _named(examples: Mapping[str, AnySurface] | Sequence[AnySurface]) -> dict[st
     if len(examples) > MOST_EXAMPLES:
         raise FitError(f"at most {MOST_EXAMPLES} examples are taken, not {len(examples)}; four are plenty.")
     return dict(examples)
-
-
-def used_shapes(template: Rig, shapes: Iterable[str] | None) -> tuple[str, ...]:
-    """The shapes that may explain examples: those named, or all with a weight of their own."""
-    if shapes is None:
-        return tuple(shape.name for shape in template.controls)
-    return tuple(dict.fromkeys(template.shape(name).name for name in shapes))
 
 
 def _start(problem: FitProblem, named: Mapping[str, AnySurface], weights: Weights | None) -> Float64:

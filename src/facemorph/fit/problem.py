@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from facemorph.core.arrays import Float32, Float64, Int64
-from facemorph.fit.align import similarity
+from facemorph.fit.align import diagonal_of, similarity
 from facemorph.fit.explaining import Explaining, flat
 from facemorph.fit.gradients import edges_of
 from facemorph.fit.parts import PartMeans
@@ -50,7 +50,7 @@ class FitProblem:
         """The neutral's diagonal as its own axes measure it, in the template's size."""
         way = self.way.way
         own = way.inverse().points(self.way.neutral)
-        return way.scale * float(np.linalg.norm(np.ptp(own, axis=0)))
+        return way.scale * diagonal_of(own)
 
     @property
     def offsets(self) -> Float64:

@@ -17,8 +17,8 @@ from facemorph.core.progress import Progress, silent
 from facemorph.core.rig import Rig
 from facemorph.errors import FitError
 from facemorph.fit.baselines import Row, components_percent, copied, principal, shapes_percent
-from facemorph.fit.checks import AnySurface, Weights, check_example, points_of, weight_rows
-from facemorph.fit.example_based import scheduled, used_shapes
+from facemorph.fit.checks import AnySurface, Weights, check_example, points_of, used_shapes, weight_rows
+from facemorph.fit.example_based import scheduled
 from facemorph.fit.problem import FitProblem, placed_moves
 from facemorph.fit.starting import GUESS
 from facemorph.fit.threads import one_thread

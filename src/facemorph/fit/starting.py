@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from facemorph.fit.checks import AnySurface, check_example, points_of
+from facemorph.fit.align import diagonal_of
+from facemorph.fit.checks import AnySurface, check_example, points_of, used_shapes
 from facemorph.fit.explaining import Explaining
 from facemorph.fit.problem import left_over, placed_moves
 from facemorph.fit.result import Example
@@ -37,10 +38,7 @@ def explained(
     Raises `CorrespondenceError`, `FitError`, `UnknownNameError`.
     """
     template = way.template
-    controls = (shape.name for shape in template.controls)
-    used = tuple(
-        dict.fromkeys(template.shape(name).name for name in (controls if shapes is None else shapes))
-    )
+    used = used_shapes(template, shapes)
     target = way.way.inverse().points(way.neutral)
     points = []
     for name, surface in examples.items():
@@ -52,7 +50,7 @@ def explained(
         rows = explaining.weights(way.planes, moves, np.zeros((len(moves), len(used))), stiffness)
         left = left_over(moves, way.planes, explaining.coefficients(rows))
     back = way.way.inverse()
-    diagonal = float(np.linalg.norm(np.ptp(target, axis=0)))
+    diagonal = diagonal_of(target)
     return tuple(
         Example(
             name,

@@ -13,8 +13,7 @@ import numpy as np
 from facemorph.core.arrays import Bool, Float32
 from facemorph.core.rig import Rig
 from facemorph.fit.align import similarity
-from facemorph.fit.checks import AnySurface, points_of
-from facemorph.fit.example_based import used_shapes
+from facemorph.fit.checks import AnySurface, points_of, used_shapes
 from facemorph.fit.explaining import Explaining
 from facemorph.fit.problem import placed_moves
 from facemorph.fit.starting import GUESS

@@ -145,8 +145,7 @@ def _weights(
     template: Rig, examples: Sequence[ExampleFile], shapes: Sequence[str] | None
 ) -> list[Mapping[str, float]] | None:
     """Those given, checked. Raises `FitError`, `UnknownNameError`."""
-    from facemorph.fit.checks import MOST_EXAMPLES, weight_rows
-    from facemorph.fit.example_based import used_shapes
+    from facemorph.fit.checks import MOST_EXAMPLES, used_shapes, weight_rows
 
     if len(examples) > MOST_EXAMPLES:
         raise FitError(f"at most {MOST_EXAMPLES} examples are taken, not {len(examples)}; four are plenty.")

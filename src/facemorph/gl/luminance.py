@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from facemorph.core.arrays import Bool, UInt8
+from facemorph.core.arrays import Bool, Float64, UInt8
 from facemorph.core.camera import Camera
 from facemorph.core.picture import Look, checked_luminance
 from facemorph.core.pose import Pose
@@ -44,9 +44,13 @@ def mean_luminance(pixels: UInt8, where: Bool) -> float:
     """Mean Y, 0..1, of pixels (H, W, 4) sRGB over those `where` (H, W); nan where there are none."""
     if not where.any():
         return math.nan
-    stored = np.arange(256) / 255.0
-    linear = np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
+    linear = _decoded(np.arange(256) / 255.0)
     return float(np.mean(linear[pixels[where][:, :3]] @ WEIGHTS))
+
+
+def _decoded(stored: Float64 | np.float64) -> Float64:
+    """Linear values of stored sRGB ones, 0..1 (IEC 61966-2-1)."""
+    return np.where(stored <= 0.04045, stored / 12.92, ((stored + 0.055) / 1.055) ** 2.4)
 
 
 class EqualLuminance:
@@ -121,7 +125,7 @@ class EqualLuminance:
 def _half_step(luminance: float) -> float:
     """Half of what one step of an 8-bit grey of this luminance changes it by (IEC 61966-2-1)."""
     stored = 1.055 * max(luminance, 0.0031308) ** (1.0 / 2.4) - 0.055
-    return float(((stored + 0.5 / 255.0 + 0.055) / 1.055) ** 2.4 - luminance)
+    return float(_decoded(np.float64(stored + 0.5 / 255.0)) - luminance)
 
 
 def solved(

@@ -28,7 +28,6 @@ from facemorph.io.plain_folder import is_called_neutral, plain_meshes
 from facemorph.io.read import read_mesh
 from facemorph.io.report import Finding, Level, Report
 from facemorph.io.shapes_npz import MoreShapes, read_shapes
-from facemorph.io.toml_table import read_table
 
 
 def check_folder(path: Path | str, *, progress: Progress = silent) -> Report:
@@ -100,7 +99,7 @@ class _Check:
                 self._shape(movements, path, "", Shape(name, name), shape.positions - mesh.positions)
         more = None
         if files.described is not None and files.described.more is not None:
-            more = self._more(movements, files.described.more, len(files.shapes), mesh.vertex_count)
+            more = self._more(movements, files.described, files.described.more, mesh.vertex_count)
         self._as_loaded(files, mesh, more)
 
     def _description(self, face: DescribedFace) -> None:
@@ -194,30 +193,34 @@ class _Check:
             self.add("warning", path, "duplicate", f"{prefix}is the same shape as {twin!r}.")
         self._good.append((shape, delta))
 
-    def _more(self, movements: Movements, path: Path, listed: int, vertex_count: int) -> MoreShapes | None:
+    def _more(
+        self, movements: Movements, face: DescribedFace, path: Path, vertex_count: int
+    ) -> MoreShapes | None:
         try:
             more = read_shapes(path, vertex_count)
-            check_size(listed + len(more.shapes), vertex_count)
+            check_size(len(face.shapes) + len(more.shapes), vertex_count)
         except FacemorphError as error:
             self.add("error", path, "unreadable", str(error).removeprefix(f"{path} "))
             return None
-        drivers = self._drivers()
+        drivers = _drivers(face)
+        known = {shape.name: moves for shape, moves in self._good}
         for shape, delta in zip(more.shapes, more.deltas, strict=True):
-            known = {one.name: moves for one, moves in self._good}
             at = drivers.get(shape.name, {})
             moved = [known[name] * np.float32(weight) for name, weight in at.items() if name in known]
             under = sum(moved[1:], start=moved[0]) if moved else None
             self._shape(movements, path, f"{shape.name} ", shape, delta, under)
+            known[shape.name] = delta
         return more
 
-    def _drivers(self) -> dict[str, dict[str, float]]:
-        """Of each corrective, the weights of the shapes by which it is on whole."""
-        try:
-            rules = read_correctives(read_table(self._folder / FACE_TOML))
-        except FaceFolderError:
-            # It is told where the whole description is read.
-            return {}
-        return {
-            rule.shape: {**dict.fromkeys(rule.product, 1.0), **{hat.over: hat.peak for hat in rule.hats}}
-            for rule in rules
-        }
+
+def _drivers(face: DescribedFace) -> dict[str, dict[str, float]]:
+    """Of each corrective, the weights of the shapes by which it is on whole."""
+    try:
+        rules = read_correctives(face.table)
+    except FaceFolderError:
+        # It is told where the whole description is read.
+        return {}
+    return {
+        rule.shape: {**dict.fromkeys(rule.product, 1.0), **{hat.over: hat.peak for hat in rule.hats}}
+        for rule in rules
+    }

@@ -13,7 +13,7 @@ from facemorph.core.arrays import Float64
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress
 from facemorph.errors import FacemorphError
-from facemorph.fit.align import Similarity, similarity
+from facemorph.fit.align import Similarity, diagonal_of, similarity
 from facemorph.ui import files, fit_landmarks
 from facemorph.ui.actions import tell_error
 from facemorph.ui.fit_carry import with_unseen
@@ -167,8 +167,8 @@ def _placement(app: App, piece: Piece, known: Sequence[LandmarkPair], base: Mesh
         return similarity(np.array([pair.point for pair in pairs]), goal[[pair.vertex for pair in pairs]])
     rotation = app.pages.fit.turns.get(piece.key, np.eye(3))
     turned = points[piece.skin] @ rotation.T
-    size = float(np.linalg.norm(np.ptp(turned, axis=0))) or 1.0
-    scale = float(np.linalg.norm(np.ptp(goal[skin], axis=0))) / size or 1.0
+    size = diagonal_of(turned) or 1.0
+    scale = diagonal_of(goal[skin]) / size or 1.0
     middles = [(part.max(axis=0) + part.min(axis=0)) / 2.0 for part in (goal[skin], turned)]
     return Similarity(scale, rotation, middles[0] - scale * middles[1])
 

@@ -11,9 +11,10 @@ from facemorph.core.arrays import Float32, Float64
 from facemorph.core.correspondence import difference
 from facemorph.core.mesh import Mesh
 from facemorph.errors import CorrespondenceError, FitError
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.parts import connected_parts
 from facemorph.fit.registration.checks import checked_scan, checked_template
-from facemorph.fit.registration.register import diagonal_of, scan_around
+from facemorph.fit.registration.register import scan_around
 from facemorph.fit.registration.riders import Carrier, carried
 from facemorph.fit.registration.turning import only, point_normals
 from facemorph.fit.threads import one_thread

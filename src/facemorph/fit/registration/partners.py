@@ -13,11 +13,12 @@ import numpy as np
 from facemorph.core.arrays import Float64
 from facemorph.core.landmark_pair import LandmarkPair
 from facemorph.core.mesh import Mesh
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.parts import connected_parts
 from facemorph.fit.registration.checks import checked_scan, checked_template
 from facemorph.fit.registration.field import SmoothField
 from facemorph.fit.registration.pairs import agreed_similarity, checked_pairs
-from facemorph.fit.registration.register import LOOSE, diagonal_of, main_part, pair_arrays, scan_around
+from facemorph.fit.registration.register import LOOSE, main_part, pair_arrays, scan_around
 from facemorph.fit.registration.surface import ScanSurface
 from facemorph.fit.registration.turning import point_normals
 

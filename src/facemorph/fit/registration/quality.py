@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facemorph.core.arrays import Bool, Float32, Float64, Int32, Int64
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.registration.seams import crossed
 from facemorph.fit.registration.surface import Hits, ScanSurface
 from facemorph.fit.registration.turning import Neighbourhoods, areas_of, only, point_normals
@@ -129,7 +130,7 @@ def _crossed(wrapped: Wrapped, scan: ScanSurface, matched: Bool, diagonal: float
     """Vertices (n,) that went through what they faced, but those that the scan itself has there."""
     before, after = wrapped.before[matched], wrapped.after[matched]
     triangles = only(wrapped.triangles, matched)
-    through = crossed(before, after, triangles, float(np.linalg.norm(np.ptp(before, axis=0))))
+    through = crossed(before, after, triangles, diagonal_of(before))
     normals = point_normals(after, triangles)[through]
     hits = scan.nearest_alike(after[through], normals)
     own = ((hits.normals * normals).sum(axis=1) > 0.5) & (hits.distances < _SAME_PLACE * diagonal)

@@ -18,6 +18,7 @@ from facemorph.core.landmark_pair import LandmarkPair
 from facemorph.core.mesh import Mesh
 from facemorph.core.progress import Progress, silent
 from facemorph.errors import OptionError
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.parts import connected_parts
 from facemorph.fit.registration.checks import (
     around,
@@ -230,11 +231,6 @@ def _anchors(matched: Bool, vertices: Int64, places: Float64) -> Anchors:
     own = matched[vertices]
     number = np.cumsum(matched) - 1
     return Anchors(number[vertices[own]], places[own])
-
-
-def diagonal_of(points: Float64) -> float:
-    """Of the box around points (N, 3)."""
-    return float(np.linalg.norm(np.ptp(points, axis=0)))
 
 
 class _Clock:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from facemorph.core.arrays import Bool, Float64, Int32, Int64
-from facemorph.fit.align import similarity
+from facemorph.fit.align import diagonal_of, similarity
 from facemorph.fit.registration.field import SmoothField
 from facemorph.fit.registration.surface import ScanSurface
 
@@ -38,7 +38,7 @@ class Carrier:
     @property
     def size(self) -> float:
         """The diagonal of the box around it."""
-        return float(np.linalg.norm(np.ptp(self.before, axis=0)))
+        return diagonal_of(self.before)
 
 
 def carried(points: Float64, part: Int32, carrier: Carrier) -> Float64:

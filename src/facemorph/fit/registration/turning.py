@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from facemorph.core.arrays import Bool, Float64, Int64
+from facemorph.fit.align import diagonal_of
 from facemorph.fit.registration.surface import normals_of
 
 _NO_AREA = 1e-7
@@ -25,7 +26,7 @@ class Neighbourhoods:
         self._share = 1.0 / np.maximum(np.diff(self._wide.indptr), 1)[:, None]
         self._mean = self._share * (self._wide @ self._before)
         self._areas = areas_of(before, triangles)
-        size = float(np.linalg.norm(np.ptp(before, axis=0)))
+        size = diagonal_of(before)
         self._solid = np.linalg.norm(self._areas, axis=1) > (_NO_AREA * size) ** 2
 
     def around(self, vertices: Int64) -> Int64:
